@@ -1,0 +1,79 @@
+"""What a machine is made of: bodies that move as one piece, each of one or more parts of one material."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.robots.parts.shading import Arrays, split_sharp_edges
+from app.robots.parts.solids import Solid
+
+if TYPE_CHECKING:
+    from trimesh import Trimesh
+
+LEG = "leg"
+"""The material of parts that are painted in the colour of the leg they belong to."""
+
+
+class Placement(NamedTuple):
+    """Where the copies of a body are, in the base frame (or in the tool's, for a body that rides on it)."""
+
+    positions: NDArray[np.float32]
+    """(n, 3) metres."""
+    wxyzs: NDArray[np.float32]
+    """(n, 4) unit quaternions. An array that never changes is the same object every time."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """One shape of one material in its body's frame. Equal parts have equal shapes."""
+
+    name: str
+    """Unique in its machine; the name of its file."""
+    material: str
+    """A key of `MATERIALS`, or `LEG`."""
+    build: Callable[..., Solid]
+    dimensions: tuple[float, ...]
+    """What `build` is called with: everything that decides the shape."""
+
+    def mesh(self) -> Trimesh:
+        """The closed mesh in metres. It is shared: copy it before changing it."""
+        return _mesh(self.build, self.dimensions)
+
+    def arrays(self) -> Arrays:
+        """Vertices (v, 3) float32 and faces (f, 3) uint32 to draw with smooth normals: sharp edges are split."""
+        return _arrays(self.build, self.dimensions)
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid piece of the machine, drawn once for each copy."""
+
+    name: str
+    parts: tuple[Part, ...]
+    legs: tuple[int | None, ...] = (None,)
+    """One entry a copy: the leg it belongs to, counted from 0."""
+    frame: Literal["base", "tool"] = "base"
+    """`tool`: it is rigidly fixed to the tool frame and needs no update of its own."""
+    fixed: Placement | None = field(default=None, compare=False)
+    """Where its copies stand in `frame`; None for a body that `Machine.place` places."""
+
+
+@lru_cache(maxsize=256)
+def _mesh(build: Callable[..., Solid], dimensions: tuple[float, ...]) -> Trimesh:
+    from trimesh import Trimesh
+
+    raw = build(*dimensions).to_mesh64()
+    vertices = np.asarray(raw.vert_properties)[:, :3]
+    return Trimesh(vertices.copy(), np.asarray(raw.tri_verts).astype(np.int64), process=False)
+
+
+@lru_cache(maxsize=256)
+def _arrays(build: Callable[..., Solid], dimensions: tuple[float, ...]) -> Arrays:
+    mesh = _mesh(build, dimensions)
+    return split_sharp_edges(mesh.vertices, mesh.faces)
