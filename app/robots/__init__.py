@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from app.robots.delta3 import PRESETS as DELTA3_PRESETS
@@ -13,7 +14,7 @@ from app.robots.par4 import Par4, Par4Geometry
 from app.robots.reach import Reach
 from app.robots.robot import Assembly, Robot, Skeleton
 
-__all__ = ["ROBOTS", "Assembly", "Geometry", "GeometryError", "Reach", "Robot", "Skeleton", "make_robot"]
+__all__ = ["ROBOTS", "Assembly", "Geometry", "GeometryError", "Reach", "Robot", "Skeleton", "build_robot", "make_robot"]
 
 
 @dataclass(frozen=True)
@@ -46,10 +47,19 @@ def make_robot(name: str, *, preset: str | None = None, **dimensions: float) -> 
     Raises:
         GeometryError: for an unknown robot, preset or dimension, or dimensions with which nothing is in reach.
     """
+    presets = _entry(name).presets
+    if preset is not None and preset not in presets:
+        raise GeometryError(f"{name} has no preset {preset!r}; choose one of {', '.join(presets)}.")
+    return build_robot(name, {**presets.get(preset or "", {}), **dimensions})
+
+
+def build_robot(name: str, dimensions: Mapping[str, float]) -> Robot:
+    """`make_robot` for dimensions that come as a mapping; an empty one gives the default geometry."""
+    entry = _entry(name)
+    return entry.build(entry.geometry().changed(**dimensions))
+
+
+def _entry(name: str) -> Entry:
     if name not in ROBOTS:
         raise GeometryError(f"There is no robot {name!r}; choose one of {', '.join(ROBOTS)}.")
-    entry = ROBOTS[name]
-    if preset is not None and preset not in entry.presets:
-        raise GeometryError(f"{name} has no preset {preset!r}; choose one of {', '.join(entry.presets)}.")
-    values = {**entry.presets.get(preset or "", {}), **dimensions}
-    return entry.build(entry.geometry().changed(**values))
+    return ROBOTS[name]

@@ -53,17 +53,11 @@ class FiveBarGeometry(Geometry):
     """Greatest height of the tool."""
     q1_min: float = angle(math.radians(65.0), "Lowest angle of arm 1", 0.0, math.radians(110.0))
     """Limit of q_1 towards arm 2."""
-    q1_max: float = angle(
-        math.radians(170.0), "Highest angle of arm 1", math.radians(115.0), math.radians(220.0)
-    )
+    q1_max: float = angle(math.radians(170.0), "Highest angle of arm 1", math.radians(115.0), math.radians(220.0))
     """Limit of q_1 away from arm 2."""
-    q2_min: float = angle(
-        math.radians(10.0), "Lowest angle of arm 2", math.radians(-40.0), math.radians(65.0)
-    )
+    q2_min: float = angle(math.radians(10.0), "Lowest angle of arm 2", math.radians(-40.0), math.radians(65.0))
     """Limit of q_2 away from arm 1."""
-    q2_max: float = angle(
-        math.radians(115.0), "Highest angle of arm 2", math.radians(70.0), math.radians(180.0)
-    )
+    q2_max: float = angle(math.radians(115.0), "Highest angle of arm 2", math.radians(70.0), math.radians(180.0))
     """Limit of q_2 towards arm 1."""
     phi_max: float = angle(math.pi, "Largest turn of the tool", 0.1, 2 * math.pi)
     """Limit of phi to either side."""
@@ -73,7 +67,7 @@ class FiveBarGeometry(Geometry):
     def __post_init__(self) -> None:
         super().__post_init__()
         if abs(self.l_p - self.l_d) > 0.5 * (self.l_p + self.l_d):
-            raise GeometryError("The links differ too much: l_p and l_d may be three times as long at most.")
+            raise GeometryError("The links differ too much: neither l_p nor l_d may exceed three times the other.")
 
     @property
     def sin_min(self) -> float:
@@ -120,9 +114,7 @@ class FiveBar(Robot):
         ahead[:, 1] = np.linspace(0.0, self.geometry.l_p + self.geometry.l_d, len(ahead))
         ahead = ahead[self.reachable(ahead)]
         if not len(ahead):
-            raise GeometryError(
-                f"With these dimensions the {self.title} cannot reach any pose; lengthen its rods."
-            )
+            raise GeometryError(f"With these dimensions the {self.title} cannot reach any pose; lengthen its rods.")
         return ahead[len(ahead) // 2]
 
     def _inverse_columns(self, *pose: Array) -> Sequence[Array]:

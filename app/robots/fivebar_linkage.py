@@ -27,9 +27,7 @@ class Linkage:
     l_p: float
     l_d: float
 
-    def arm_direction(
-        self, leg: int, x: Any, y: Any, side: float, sqrt: Callable[[Any], Any]
-    ) -> tuple[Any, Any]:
+    def arm_direction(self, leg: int, x: Any, y: Any, side: float, sqrt: Callable[[Any], Any]) -> tuple[Any, Any]:
         """Where an arm points: to P, turned to one side by acos((r^2 + l_p^2 - l_d^2) / (2 l_p r)). Of any
         length, so that it is never 0/0; NaN where the loop cannot close."""
         dx = x - self.motors[leg]

@@ -51,21 +51,15 @@ class LinearGeometry(Geometry):
     """Carriage below the frame's top at its lower stop (L_max)."""
     z_min: float = length(-0.800, "Floor", -2.0, -0.20, essential=False)
     """Height at which the platform would touch the floor; from the frame's height H."""
-    beta_min: float = angle(
-        math.acos(0.305 / 0.365), "Least rod elevation", math.radians(5.0), math.radians(70.0)
-    )
+    beta_min: float = angle(math.acos(0.305 / 0.365), "Least rod elevation", math.radians(5.0), math.radians(70.0))
     """Flatter rods come too near the singularity where they lie level; 33 degrees keep |m_i| <= 0.305 m."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.s_p >= self.S_A or self.w_p + self.u_b >= self.W_A + self.U_A:
-            raise GeometryError(
-                "The platform must be smaller than the rails' triangle; reduce s_p, w_p or u_b."
-            )
+            raise GeometryError("The platform must be smaller than the rails' triangle; reduce s_p, w_p or u_b.")
         if self.L_max - self.L_min < 0.01:
-            raise GeometryError(
-                "The lower stop (L_max) must lie at least 10 mm below the upper stop (L_min)."
-            )
+            raise GeometryError("The lower stop (L_max) must lie at least 10 mm below the upper stop (L_min).")
 
     @property
     def stroke(self) -> float:
@@ -107,7 +101,7 @@ class LinearDelta(Robot):
     def solve(self, *pose: float) -> tuple[float, ...]:
         x, y, z = pose
         l2 = self.geometry.l**2
-        squares = [l2 - (x - zx) ** 2 - (y - zy) ** 2 for zx, zy in self._zeta]
+        squares = [l2 - (x - zx) * (x - zx) - (y - zy) * (y - zy) for zx, zy in self._zeta]
         return tuple([-z - math.sqrt(h2) if h2 >= 0.0 else math.nan for h2 in squares])
 
     def working_modes(self, pose: ArrayLike) -> Array:

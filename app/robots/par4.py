@@ -96,9 +96,7 @@ class Par4(RotaryDelta):
     def _platform_joints(self, pose: Array) -> Array:
         s, c = np.sin(pose[..., 3, None]), np.cos(pose[..., 3, None])
         turn, height = np.array(self._link_turns), np.full(4, self.geometry.P_z)
-        shift = np.stack(
-            np.broadcast_arrays(self._along - turn * s, self._across + turn * c, height), axis=-1
-        )
+        shift = np.stack(np.broadcast_arrays(self._along - turn * s, self._across + turn * c, height), axis=-1)
         return pose[..., None, :3] + shift
 
     def jacobian(self, pose: ArrayLike) -> Array:

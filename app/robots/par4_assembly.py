@@ -25,7 +25,7 @@ def newton(robot: Par4, joints: Array) -> Array:
     """(rows, 4) valid poses of (rows, 4) joints, NaN where there is none."""
     elbows = robot._elbows(joints)
     poses = np.broadcast_to(robot.home, joints.shape).copy()
-    active = np.isfinite(joints).all(axis=-1)
+    active = np.asarray(np.isfinite(joints).all(axis=-1))
     poses[~active] = np.nan
     for _ in range(30):
         rows = np.flatnonzero(active)

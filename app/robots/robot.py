@@ -270,6 +270,6 @@ class Robot(ABC):
 
 def condition_number(scaled: Array) -> Array:
     """(...,) condition number of dimensionless Jacobians (..., n, n); inf where one is singular or NaN."""
-    good = np.isfinite(scaled).all(axis=(-1, -2))
+    good = np.asarray(np.isfinite(scaled).all(axis=(-1, -2)))
     safe = np.where(good[..., None, None], scaled, np.eye(scaled.shape[-1]))
     return np.where(good, np.linalg.cond(safe), np.inf)

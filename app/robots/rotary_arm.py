@@ -59,8 +59,8 @@ def gap(E: float, F: float, G: float, rod: float) -> float:
     """How far the loop is from closing, in metres: positive when the leg is too short, negative when it is
     folded too tightly, 0 when it closes. The elbow-to-platform distance spans sqrt(l^2 + G -+ hypot(E, F))."""
     swing = math.hypot(E, F)
-    if G > swing:
+    if swing < G:
         return math.sqrt(rod * rod + G - swing) - rod
-    if G < -swing:
+    if -swing > G:
         return math.sqrt(max(rod * rod + G + swing, 0.0)) - rod
     return 0.0

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.robots import ROBOTS, GeometryError, Robot, make_robot
-from app.robots.workspace import bounding_box, boundary, cloud
+from app.robots.workspace import boundary, bounding_box, cloud
 
 EVERY = {name: make_robot(name) for name in ROBOTS}
 every_robot = pytest.mark.parametrize("robot", EVERY.values(), ids=EVERY)

@@ -81,7 +81,9 @@ def test_jacobian_and_conditioning():
         assert float(PAR4.conditioning(pose)) == pytest.approx(row["condJ"], rel=1e-9)
 
 
-@pytest.mark.parametrize("row", golden("par4_workspace")["rows"], ids=lambda r: f"{r['step_mm']}mm-{r['P_iz']}-{r['theta_deg']}")
+@pytest.mark.parametrize(
+    "row", golden("par4_workspace")["rows"], ids=lambda r: f"{r['step_mm']}mm-{r['P_iz']}-{r['theta_deg']}"
+)
 def test_workspace_counts_of_the_papers_box(row):
     robot = make_robot("par4", P_z=row["P_iz"] / 1e3)
     low, high = np.array([-170.0, -210.0, -510.0]), np.array([170.0, 140.0, -220.0])
@@ -103,9 +105,7 @@ def test_the_error_printed_in_equation_18():
     assert shift == pytest.approx(3.1, abs=0.05)
 
 
-@given(
-    st.floats(-0.17, 0.17), st.floats(-0.21, 0.14), st.floats(-0.51, -0.22), st.floats(-np.pi / 4, np.pi / 4)
-)
+@given(st.floats(-0.17, 0.17), st.floats(-0.21, 0.14), st.floats(-0.51, -0.22), st.floats(-np.pi / 4, np.pi / 4))
 def test_round_trip_over_the_workspace(x, y, z, theta):
     pose = np.array([x, y, z, theta])
     if PAR4.reachable(pose):

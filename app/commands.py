@@ -1,0 +1,97 @@
+"""The commands behind `deltalab`, their options, and how a command line is read."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeVar
+
+import tyro
+
+from app import __version__
+from app.errors import UserMistake
+from app.resources import data_root
+from app.ui.options import ServeOptions
+
+Command = TypeVar("Command")
+
+
+@dataclass(frozen=True)
+class Meshes:
+    """Make the robots' parts (GLB files) again from their geometry."""
+
+    directory: Path = data_root() / "meshes"
+    """Folder to write to."""
+
+
+def serve(options: ServeOptions) -> None:
+    from app.ui.server import serve as serve_page
+
+    serve_page(options)
+
+
+def build_meshes(command: Meshes) -> None:
+    from app.robots.parts.library import build_all
+
+    try:
+        for path in build_all(command.directory):
+            print(path)
+    except OSError as error:
+        raise UserMistake(f"Cannot write meshes to {command.directory}: {error.strerror}.") from error
+
+
+COMMANDS: dict[str, tuple[type, Callable[..., None]]] = {
+    "meshes": (Meshes, build_meshes),
+}
+"""Name of a command -> its options and what carries it out. Without a name, the page is served."""
+
+
+def run(arguments: list[str]) -> None:
+    """Find the command, read its options and carry it out."""
+    first = arguments[0] if arguments else ""
+    if first == "--version":
+        print(f"deltalab {__version__}")
+    elif first in COMMANDS:
+        options, execute = COMMANDS[first]
+        execute(parse(options, f"deltalab {first}", arguments[1:]))
+    elif first and not first.startswith("-"):
+        raise UserMistake(
+            f"There is no command {first!r}: choose {', '.join(COMMANDS)}, or none to serve the page."
+        )
+    else:
+        serve(parse(ServeOptions, "deltalab", arguments, description=overview()))
+
+
+def overview() -> str:
+    """What `deltalab --help` says above its options."""
+    lines = [f"  deltalab {name:<10} {options.__doc__}" for name, (options, _) in COMMANDS.items()]
+    lines.append(f"  deltalab {'--version':<10} Print the version.")
+    return "\n".join([ServeOptions.__doc__ or "", "", "Other commands (each has its own --help):", *lines])
+
+
+def parse(options: type[Command], prog: str, arguments: list[str], description: str | None = None) -> Command:
+    """Read options with tyro; its boxed, many-line error becomes a `UserMistake` of one sentence."""
+    errors = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(errors):
+            return tyro.cli(options, prog=prog, args=arguments, description=description)
+    except SystemExit as leaving:
+        if not leaving.code:
+            raise
+        raise UserMistake(condense(errors.getvalue(), prog)) from None
+
+
+def condense(box: str, prog: str) -> str:
+    """One sentence from the first paragraph of tyro's error box, and its guess at what was meant."""
+    plain = re.sub(r"\x1b\[[0-9;]*m", "", box)
+    rows = "\n".join(row.strip(" │") for row in plain.splitlines())
+    _title, *paragraphs = re.split(r"^(?:[╭╰].*|[─-]{3,})$", rows, flags=re.MULTILINE)
+    reason, *others = [" ".join(paragraph.split()) for paragraph in paragraphs] or [""]
+    reason = re.sub(r"\. (\w)", lambda match: ", " + match[1].lower(), reason.rstrip("."))
+    guess = re.search(r"Perhaps you meant: (--[\w-]+)", " ".join(others))
+    advice = f"did you mean {guess[1]}?" if guess else f"see {prog} --help"
+    return f"{reason[:1].upper()}{reason[1:] or 'This command line cannot be read'} ({advice})."

@@ -1,0 +1,1 @@
+"""Tests of Delta Lab; a package so that `tests.support` is always this one."""

@@ -1,0 +1,79 @@
+"""Fixtures: a running Delta Lab, and browsers to look at it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import ExitStack
+
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from tests.support.browser import CHROMIUM, DESKTOP, PHONE, PageFactory, Screen, launch, new_page
+from tests.support.server import RunningServer, ServerFactory, running_deltalab
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what needs Chromium and run it last: from then on Playwright has a loop on the main thread."""
+    for item in items:
+        if "browser" in getattr(item, "fixturenames", ()):
+            item.add_marker("browser")
+    items.sort(key=lambda item: item.get_closest_marker("browser") is not None)
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    """Chromium; a machine without it skips the test, in CI that is a failure."""
+    if not CHROMIUM.exists():
+        reason = f"needs Chromium at {CHROMIUM}"
+        if os.environ.get("CI") == "true":
+            pytest.fail(reason)
+        pytest.skip(reason)
+    with sync_playwright() as playwright:
+        chromium = launch(playwright)
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture
+def visit(browser: Browser) -> Iterator[PageFactory]:
+    """`visit(PHONE)`: a fresh visitor's page on that screen. An uncaught script error fails the test."""
+    pages: list[Page] = []
+    errors: list[str] = []
+
+    def make(screen: Screen = DESKTOP) -> Page:
+        page = new_page(browser, screen)
+        page.on("pageerror", lambda error: errors.append(str(error)))
+        pages.append(page)
+        return page
+
+    yield make
+    for page in pages:
+        page.context.close()
+    assert not errors, f"script errors on the page: {errors}"
+
+
+@pytest.fixture
+def page(visit: PageFactory) -> Page:
+    """A page of 1440x900 with a mouse."""
+    return visit(DESKTOP)
+
+
+@pytest.fixture
+def phone_page(visit: PageFactory) -> Page:
+    """A page of 390x844 with a finger."""
+    return visit(PHONE)
+
+
+@pytest.fixture
+def running_server() -> Iterator[ServerFactory]:
+    """`running_server("--robot", "linear")`: a listening `deltalab`; all of them must stop cleanly."""
+    with ExitStack() as servers:
+        yield lambda *arguments: servers.enter_context(running_deltalab(*arguments))
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[RunningServer]:
+    """One `deltalab` with its defaults, shared by a module's tests."""
+    with running_deltalab() as running:
+        yield running

@@ -1,0 +1,1 @@
+"""What the tests and the benchmarks share: a running server, a browser, a websocket client."""
