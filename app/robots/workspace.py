@@ -72,7 +72,7 @@ def step_for(robot: Robot, rotation: float, points: int) -> float:
     return coarse * (max(len(cloud(robot, rotation, coarse).points), 1) / points) ** (1 / 3)
 
 
-def boundary(robot: Robot, rotation: float = 0.0, rings: int = 40, segments: int = 72) -> Surface:
+def boundary(robot: Robot, rotation: float = 0.0, rings: int = 64, segments: int = 96) -> Surface:
     """The surface seen from inside: along each direction of a sphere, bisection finds where reach ends."""
     centre = _centre(robot, rotation)
     directions, faces = _sphere(rings, segments)
@@ -88,9 +88,15 @@ def boundary(robot: Robot, rotation: float = 0.0, rings: int = 40, segments: int
 
 
 def _centre(robot: Robot, rotation: float) -> Array:
-    if robot.dof == 3:
-        return robot.home
-    return robot.nearest([*robot.home[:3], rotation])
+    """A pose well inside: half-way between the ends of reach along each axis through home, z first."""
+    centre = robot.nearest([*robot.home[:3], rotation][: robot.dof])
+    for axis in (2, 1, 0):
+        line = np.repeat(centre[None], 401, axis=0)
+        line[:, axis] += np.linspace(-1.0, 1.0, len(line))
+        inside = robot.reachable(line)
+        first, last = 200 - np.argmin(inside[200::-1]) + 1, 200 + np.argmin(inside[200:]) - 1
+        centre = 0.5 * (line[first] + line[last])
+    return centre
 
 
 def _along(centre: Array, directions: Array, distance: Array) -> Array:

@@ -139,7 +139,7 @@ def main() -> None:
         print(json.dumps(rows, indent=2))
         return
     print(
-        "| robot | ns / pose | plain loop / ours | NumPy as printed / ours | drag path us | one-pose array / drag path |"
+        "| robot | ns / pose | plain loop / ours | NumPy as printed / ours | drag path us | one-pose array / that |"
     )
     print("|---|---|---|---|---|---|")
     for row in rows:

@@ -34,7 +34,7 @@ LAPS_PER_SECOND = 0.3517
 DECIMALS = 6
 """Positions are sent in whole micrometres, so that an answer in float32 still matches."""
 CONNECT_INTERVAL = 0.02
-WARM_UP = 1.0
+SETTLED_AFTER = 2.0
 DRAIN = 1.0
 
 Point = tuple[float, ...]
@@ -122,7 +122,7 @@ def reachable_home(robot_name: str, radius: float) -> Point:
 
 
 async def join(stack: AsyncExitStack, url: str, clients: int) -> list[Student]:
-    """Connect so many students and wait until each has a robot."""
+    """Connect so many students and wait until each has the whole page."""
     students = []
     for _ in range(clients):
         students.append(Student(await stack.enter_async_context(wire_client(url))))
@@ -130,16 +130,24 @@ async def join(stack: AsyncExitStack, url: str, clients: int) -> list[Student]:
     for student in students:
         nodes = student.client.nodes
         await student.client.wait_for(lambda nodes=nodes: nodes.keys() >= {GIZMO, TOOL}, "gizmo and tool")
+    await asyncio.gather(*(settled(student.client) for student in students))
     return students
 
 
+async def settled(client: WireClient) -> None:
+    """Wait until nothing is added to the client's page any more."""
+    before = -1
+    while (now := len(client.nodes) + len(client.inputs)) != before:
+        before = now
+        await asyncio.sleep(SETTLED_AFTER)
+
+
 async def measure(server: RunningServer, options: Options, clients: int, rate: float) -> Row:
-    """Connect, let everything settle, drag for a while, count."""
+    """Connect, drag for a while, count."""
     radius, drags = 1e-3 * options.radius_mm, round(rate * options.seconds)
     centre = reachable_home(options.robot, radius)
     async with AsyncExitStack() as stack:
         students = await join(stack, server.url, clients)
-        await asyncio.sleep(WARM_UP)
         meter, start = Meter(server.pid), time.perf_counter()
         async with asyncio.TaskGroup() as dragging:
             for index, student in enumerate(students):

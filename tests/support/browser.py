@@ -147,6 +147,7 @@ def drag_gizmo(
 
     `axis` is the arrow's direction in the gizmo's frame; negative pixels drag against it.
     """
+    wait_ready(page, [name])
     grip = GRIP * gizmo_scale(page, name)
     centre, start = project(page, name), project(page, name, [grip * component for component in axis])
     length = math.dist(start, centre)
@@ -156,7 +157,11 @@ def drag_gizmo(
 
 
 def turn_gizmo(page: Page, name: str, degrees: float, *, touch: bool = False, steps: int = 12) -> None:
-    """Drag the ring about z by an angle; the ring is a quarter of a circle from x to y."""
+    """Drag the ring about z; it is a quarter of a circle from x to y.
+
+    From a low camera a pixel is many degrees: expect the direction then, and the angle only roughly.
+    """
+    wait_ready(page, [name])
     radius = RING * gizmo_scale(page, name)
     angles = [math.radians(45 + degrees * k / steps) for k in range(steps + 1)]
     _drag(

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from app.robots.parts.part import Body, Placement
+from app.robots.parts.part import Body, Part, Placement
 from app.robots.parts.quaternions import IDENTITY, Quaternion, turned
 
 
@@ -21,6 +21,13 @@ class Machine(ABC):
     """Height of the floor under the machine, metres."""
     tool_tip: float = 0.0
     """Height of the drawn tool's tip above the pose's point; 0 where the tip is that point."""
+    lift: float = 0.0
+    """How far the drawn joints lie above those of `Robot.skeleton`."""
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """Every part of every body."""
+        return tuple(part for body in self.bodies for part in body.parts)
 
     @abstractmethod
     def place(self, pose: Sequence[float], joints: Sequence[float]) -> dict[str, Placement]:
@@ -45,9 +52,7 @@ class RodPairs:
     """
 
     def __init__(self, azimuths: Sequence[float], half_spacing: float) -> None:
-        self._legs = [
-            (math.cos(a), math.sin(a), (math.cos(0.5 * a), 0.0, 0.0, math.sin(0.5 * a))) for a in azimuths
-        ]
+        self._legs = [(math.cos(a), math.sin(a), (math.cos(0.5 * a), 0.0, 0.0, math.sin(0.5 * a))) for a in azimuths]
         self._half_spacing = half_spacing
 
     def place(self, upper: Sequence[Sequence[float]], lower: Sequence[Sequence[float]]) -> Placement:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.robots.parts.shading import Arrays, split_sharp_edges
-from app.robots.parts.solids import Solid
+from app.robots.parts.solids import Solid, Solids
 
 if TYPE_CHECKING:
     from trimesh import Trimesh
@@ -37,17 +37,20 @@ class Part:
     """Unique in its machine; the name of its file."""
     material: str
     """A key of `MATERIALS`, or `LEG`."""
-    build: Callable[..., Solid]
-    dimensions: tuple[float, ...]
+    build: Callable[..., Solid | Solids]
+    dimensions: tuple[Any, ...]
     """What `build` is called with: everything that decides the shape."""
-
-    def mesh(self) -> Trimesh:
-        """The closed mesh in metres. It is shared: copy it before changing it."""
-        return _mesh(self.build, self.dimensions)
 
     def arrays(self) -> Arrays:
         """Vertices (v, 3) float32 and faces (f, 3) uint32 to draw with smooth normals: sharp edges are split."""
         return _arrays(self.build, self.dimensions)
+
+    def mesh(self) -> Trimesh:
+        """The closed mesh, metres."""
+        from trimesh import Trimesh
+
+        vertices, faces = _closed(self.build, self.dimensions)
+        return Trimesh(vertices, faces, process=False)
 
 
 @dataclass(frozen=True)
@@ -65,15 +68,18 @@ class Body:
 
 
 @lru_cache(maxsize=256)
-def _mesh(build: Callable[..., Solid], dimensions: tuple[float, ...]) -> Trimesh:
-    from trimesh import Trimesh
+def _arrays(build: Callable[..., Solid | Solids], dimensions: tuple[Any, ...]) -> Arrays:
+    arrays = split_sharp_edges(*_closed(build, dimensions))
+    for array in arrays:
+        array.flags.writeable = False
+    return arrays
 
-    raw = build(*dimensions).to_mesh64()
-    vertices = np.asarray(raw.vert_properties)[:, :3]
-    return Trimesh(vertices.copy(), np.asarray(raw.tri_verts).astype(np.int64), process=False)
 
-
-@lru_cache(maxsize=256)
-def _arrays(build: Callable[..., Solid], dimensions: tuple[float, ...]) -> Arrays:
-    mesh = _mesh(build, dimensions)
-    return split_sharp_edges(mesh.vertices, mesh.faces)
+def _closed(build: Callable[..., Solid | Solids], dimensions: tuple[Any, ...]) -> tuple[NDArray, NDArray]:
+    """Vertices (v, 3) and faces (f, 3) of all solids of a shape together."""
+    built = build(*dimensions)
+    meshes = [solid.to_mesh64() for solid in (built if isinstance(built, list) else [built])]
+    starts = np.cumsum([0, *(len(mesh.vert_properties) for mesh in meshes)])
+    vertices = np.vstack([mesh.vert_properties for mesh in meshes])
+    faces = np.vstack([mesh.tri_verts.astype(np.int64) + k for mesh, k in zip(meshes, starts[:-1], strict=True)])
+    return vertices, faces

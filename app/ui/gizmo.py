@@ -1,0 +1,96 @@
+"""The handles at the tool: arrows and planes that move it, and a ring that turns it where the robot can turn.
+
+While a drag leaves the reach, the gizmo stays under the pointer and only the robot is held back; when it is
+let go, the gizmo returns to the robot.
+"""
+
+from __future__ import annotations
+
+import math
+
+import viser
+
+from app.ui.session import Session
+from app.ui.state import Stance
+from app.ui.viser_adapter import NodeStream, silence_gizmo_echo
+
+GIZMO_SIZE_M = 0.16
+
+RING_SIZE = 1.4
+"""Of the ring relative to the arrows, so that it lies outside of their planes."""
+
+
+class Gizmo:
+    """`/robot/gizmo` and, for a robot with a rotation, `/robot/turn`."""
+
+    def __init__(self, client: viser.ClientHandle, session: Session, stream: NodeStream) -> None:
+        self._client = client
+        self._session = session
+        self._stream = stream
+        self._dragged: viser.TransformControlsHandle | None = None
+        self._arrows: viser.TransformControlsHandle | None = None
+        self._ring: viser.TransformControlsHandle | None = None
+        session.robot_changed.connect(lambda _: self.build())
+        session.stance_changed.connect(self.follow)
+        self.build()
+
+    def build(self) -> None:
+        """Make the handles for the present robot."""
+        for handle in (self._arrows, self._ring):
+            if handle is not None:
+                handle.remove()
+        self._dragged = self._ring = None
+        size = GIZMO_SIZE_M
+        scene, position = self._client.scene, self._session.stance.position
+        self._arrows = scene.add_transform_controls(
+            "/robot/gizmo", size, disable_rotations=True, depth_test=False, position=position
+        )
+        self._arrows.on_update(self._on_arrows)
+        silence_gizmo_echo(self._arrows)
+        if self._session.robot.rotation_name is None:
+            return
+        self._ring = scene.add_transform_controls(
+            "/robot/turn",
+            size * RING_SIZE,
+            line_width=4.0,
+            active_axes=(True, True, False),
+            disable_axes=True,
+            disable_sliders=True,
+            depth_test=False,
+            position=position,
+            wxyz=_about_z(self._session.stance.pose[3]),
+        )
+        self._ring.on_update(self._on_ring)
+        silence_gizmo_echo(self._ring)
+
+    def follow(self, stance: Stance) -> None:
+        """Keep the handles at the tool, except the one in hand."""
+        position = stance.wished_position
+        for handle in (self._arrows, self._ring):
+            if handle is None or handle is self._dragged:
+                continue
+            rotation = _about_z(stance.wish[3]) if handle is self._ring else None
+            self._stream.move(handle, position, rotation)
+
+    async def _on_arrows(self, event: viser.TransformControlsEvent) -> None:
+        self._on_phase(event)
+        if event.phase == "update":
+            self._session.drag(position=event.target.position)
+
+    async def _on_ring(self, event: viser.TransformControlsEvent) -> None:
+        self._on_phase(event)
+        if event.phase == "update":
+            w, _, _, z = event.target.wxyz
+            turn = 2.0 * math.atan2(float(z), float(w))
+            self._session.drag(rotation=math.remainder(turn, math.tau))
+
+    def _on_phase(self, event: viser.TransformControlsEvent) -> None:
+        if event.phase == "end":
+            self._dragged = None
+            self._session.release()
+        else:
+            self._dragged = event.target
+
+
+def _about_z(angle: float) -> tuple[float, float, float, float]:
+    return (math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2))

@@ -1,0 +1,136 @@
+"""Drawings over the robot: the loop of one leg as vectors, coordinate frames, and the trace of the tool."""
+
+from __future__ import annotations
+
+from collections import deque
+
+import numpy as np
+import viser
+
+from app.ui import theme
+from app.ui.pacing import Paced
+from app.ui.session import Session
+
+TRACE_POINTS = 600
+TRACE_STEP_M = 0.001
+"""The tool must move this far before its trace grows."""
+
+REFRESH_S = 0.05
+
+
+class Overlay:
+    """What the view options add to the robot of one browser."""
+
+    def __init__(self, client: viser.ClientHandle, session: Session) -> None:
+        self._scene = client.scene
+        self._session = session
+        self._trace: deque[tuple[float, ...]] = deque(maxlen=TRACE_POINTS)
+        self._trace_lines: viser.LineSegmentsHandle | None = None
+        self._vectors: LoopVectors | None = None
+        self._frames: list[viser.FrameHandle] = []
+        self._pace = Paced(self._refresh, REFRESH_S)
+        session.robot_changed.connect(lambda _: self._rebuild())
+        session.view_changed.connect(lambda _: self._rebuild())
+        session.stance_changed.connect(lambda _: self._pace.request())
+        self._rebuild()
+
+    def clear_trace(self) -> None:
+        self._trace.clear()
+        self._draw_trace()
+
+    def close(self) -> None:
+        self._pace.cancel()
+
+    def _rebuild(self) -> None:
+        view = self._session.view
+        for frame in self._frames:
+            frame.remove()
+        self._frames = self._add_frames() if view.frames else []
+        if self._vectors is not None:
+            self._vectors.remove()
+            self._vectors = None
+        if view.vectors_leg is not None and view.vectors_leg < len(
+            self._session.robot.skeleton(*_now(self._session)).base
+        ):
+            self._vectors = LoopVectors(self._scene, view.vectors_leg)
+        self._trace.clear()
+        self._refresh()
+
+    def _add_frames(self) -> list[viser.FrameHandle]:
+        names = ("/robot/base_frame", "/robot/tool/frame")
+        return [self._scene.add_frame(n, axes_length=0.08, axes_radius=0.0022, origin_radius=0.004) for n in names]
+
+    def _refresh(self) -> None:
+        if self._vectors is not None:
+            self._vectors.show(self._session)
+        if self._session.view.trace:
+            self._lengthen_trace()
+        self._draw_trace()
+
+    def _lengthen_trace(self) -> None:
+        point = self._session.stance.position
+        if not self._trace or np.linalg.norm(np.subtract(point, self._trace[-1])) >= TRACE_STEP_M:
+            self._trace.append(point)
+
+    def _draw_trace(self) -> None:
+        if len(self._trace) < 2:
+            if self._trace_lines is not None:
+                self._trace_lines.remove()
+                self._trace_lines = None
+            return
+        points = np.array(self._trace, dtype=np.float32)
+        segments = np.stack([points[:-1], points[1:]], axis=1)
+        if self._trace_lines is None:
+            self._trace_lines = self._scene.add_line_segments(
+                "/robot/trace", segments, theme.TRACE, thickness=3.0, thickness_units="screen"
+            )
+        else:
+            self._trace_lines.points = segments
+
+
+class LoopVectors:
+    """The closed chain of one leg as in the papers:  B + A + l = P + D."""
+
+    NAMES = ("B", "A", "l", "P", "D")
+
+    def __init__(self, scene: viser.SceneApi, leg: int) -> None:
+        self._leg = leg
+        self._scene = scene
+        self._arrows: viser.ArrowsHandle | None = None
+        self._labels: list[viser.LabelHandle] = []
+
+    def show(self, session: Session) -> None:
+        skeleton = session.robot.skeleton(*_now(session))
+        base, elbow, platform = (points[self._leg] for points in skeleton[:3])
+        origin, tool = np.zeros(3), np.array(session.stance.pose[:3])
+        chain = np.array([(origin, base), (base, elbow), (elbow, platform), (origin, tool), (tool, platform)])
+        chain = chain.astype(np.float32)
+        if self._arrows is None:
+            self._create(chain)
+            return
+        self._arrows.points = chain
+        for label, (start, end) in zip(self._labels, chain, strict=True):
+            label.position = 0.5 * (start + end)
+
+    def _create(self, chain: np.ndarray) -> None:
+        colors = np.array([theme.leg_color(self._leg)] * 3 + [theme.VECTOR] * 2, dtype=np.uint8)
+        self._arrows = self._scene.add_arrows(
+            "/robot/vectors", chain, colors, shaft_radius=0.0025, head_radius=0.006, head_length=0.018
+        )
+        number = "₁₂₃₄"[self._leg]
+        for name, (start, end) in zip(self.NAMES, chain, strict=True):
+            text = name if name == "P" else f"{name}{number}"
+            self._labels.append(
+                self._scene.add_label(
+                    f"/robot/vector_{name}", text, position=0.5 * (start + end), font_screen_scale=1.1
+                )
+            )
+
+    def remove(self) -> None:
+        for handle in (self._arrows, *self._labels):
+            if handle is not None:
+                handle.remove()
+
+
+def _now(session: Session) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    return session.stance.pose, session.stance.joints

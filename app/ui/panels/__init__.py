@@ -1,0 +1,1 @@
+"""One panel a file. A panel knows the session, never another panel."""

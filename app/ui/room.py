@@ -1,0 +1,94 @@
+"""Everything that one browser sees, put together; and taken apart when it leaves."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from concurrent.futures import Executor
+
+import viser
+
+from app.ui.compute import Worker
+from app.ui.ghosts import Ghosts
+from app.ui.gizmo import Gizmo
+from app.ui.notice import Notice
+from app.ui.overlay import Overlay
+from app.ui.panels.robot_panel import RobotPanel
+from app.ui.panels.view_panel import ViewPanel
+from app.ui.robot_view import RobotView
+from app.ui.session import Session
+from app.ui.shape_cache import ShapeCache
+from app.ui.stage import Stage
+from app.ui.state import Memory
+from app.ui.viser_adapter import NodeStream, run_javascript
+from app.ui.workspace_view import WorkspaceCache, WorkspaceView
+
+PANEL_WIDTH = 320
+
+
+class Room:
+    """One browser's session with its views and panels."""
+
+    def __init__(
+        self,
+        client: viser.ClientHandle,
+        memory: Memory,
+        pool: Executor,
+        shapes: ShapeCache,
+        spaces: WorkspaceCache,
+    ) -> None:
+        self._client = client
+        self.session = Session(memory)
+        self._pool = pool
+        self._shapes = shapes
+        self._spaces = spaces
+        self._workers: list[Worker] = []
+        self._closers: list[Callable[[], None]] = []
+        self._closed = False
+
+    async def furnish(self) -> None:
+        """Build scene and panels, the robot first; others get their turn between the steps."""
+        client, session = self._client, self.session
+        stream = NodeStream(client)
+        run_javascript(client, 'document.title = "Delta Lab"')
+        stage = Stage(client, session)
+        RobotView(client, session, stream, self._shapes, self._worker())
+        Gizmo(client, session, stream)
+        Notice(client, session)
+        client.flush()
+        await asyncio.sleep(0)
+        if self._closed:
+            return
+        self._add_panels(stage)
+        session.stance_changed.connect(lambda _: stream.flush())
+        client.flush()
+
+    def close(self) -> None:
+        """Stop what would go on without the browser."""
+        self._closed = True
+        for worker in self._workers:
+            worker.cancel()
+        for close in self._closers:
+            close()
+
+    def _add_panels(self, stage: Stage) -> None:
+        client, session, gui = self._client, self.session, self._client.gui
+        overlay = Overlay(client, session)
+        ghosts = Ghosts(client, session, self._shapes)
+        WorkspaceView(client, session, self._worker(), self._spaces)
+        gui.main_panel.dock_right()
+        gui.main_panel.set_width(PANEL_WIDTH)
+        tabs = gui.add_tab_group()
+        with tabs.add_tab("Robot", viser.Icon.ROBOT):
+            robot_panel = RobotPanel(gui, session)
+        with tabs.add_tab("View", viser.Icon.EYE):
+            ViewPanel(gui, session, stage, overlay)
+        self._closers += [overlay.close, ghosts.close, robot_panel.close]
+
+    def _worker(self) -> Worker:
+        worker = Worker(self._pool, self._tell)
+        self._workers.append(worker)
+        return worker
+
+    def _tell(self, sentence: str) -> None:
+        self._client.add_notification("Delta Lab", sentence, color="red", auto_close_seconds=8)

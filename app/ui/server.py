@@ -1,0 +1,97 @@
+"""The page's server: one room a browser, and what all rooms share."""
+
+from __future__ import annotations
+
+import multiprocessing
+import signal
+import threading
+import webbrowser
+from collections import OrderedDict
+
+import viser
+
+from app.robots import ROBOTS, build_robot
+from app.ui.compute import make_pool
+from app.ui.guard import Guard
+from app.ui.jobs import warm_up
+from app.ui.options import ServeOptions
+from app.ui.room import Room
+from app.ui.shape_cache import ShapeCache
+from app.ui.stage import light_the_room
+from app.ui.state import Memory
+from app.ui.viser_adapter import browser_id, start_server, stop_server
+from app.ui.workspace_view import WorkspaceCache
+
+REMEMBERED = 500
+"""Browsers that find their robot again after a reload; the longest absent are forgotten first."""
+
+WARM_UP_AFTER_S = 1.0
+
+
+class Lab:
+    """A running server."""
+
+    def __init__(self, options: ServeOptions) -> None:
+        self._options = options
+        self._pool = make_pool()
+        self._shapes = ShapeCache()
+        self._shapes.learn(build_robot(options.robot, {}))
+        self._spaces = WorkspaceCache()
+        self._memories: OrderedDict[str, Memory] = OrderedDict()
+        self.rooms: dict[int, Room] = {}
+        self.server = start_server(options.host, options.port, Guard(allowed_hosts=options.allowed_hosts))
+        light_the_room(self.server)
+        self.server.gui.set_panel_label("Delta Lab")
+        self.server.on_client_connect(self._welcome)
+        self.server.on_client_disconnect(self._farewell)
+
+    @property
+    def url(self) -> str:
+        host = "localhost" if self._options.host in ("127.0.0.1", "0.0.0.0", "::1", "::") else self._options.host
+        return f"http://{host}:{self.server.get_port()}"
+
+    def close(self) -> None:
+        """Stop at once; what the workers compute is dropped."""
+        stop_server(self.server)
+        for process in multiprocessing.active_children():
+            process.terminate()
+        self._pool.shutdown(cancel_futures=True)
+
+    def warm_up(self) -> None:
+        """Start the first worker and build the other robots' shapes while nobody waits for them."""
+        self._pool.submit(warm_up)
+        for name in ROBOTS:
+            self._shapes.learn(build_robot(name, {}))
+
+    async def _welcome(self, client: viser.ClientHandle) -> None:
+        memory = self._memories.get(browser_id(client)) or Memory(self._options.robot)
+        room = Room(client, memory, self._pool, self._shapes, self._spaces)
+        self.rooms[client.client_id] = room
+        await room.furnish()
+
+    async def _farewell(self, client: viser.ClientHandle) -> None:
+        room = self.rooms.pop(client.client_id, None)
+        if room is None:
+            return
+        room.close()
+        self._memories[browser_id(client)] = room.session.memory
+        self._memories.move_to_end(browser_id(client))
+        while len(self._memories) > REMEMBERED:
+            self._memories.popitem(last=False)
+
+
+def serve(options: ServeOptions) -> None:
+    """Serve until interrupted."""
+    lab = Lab(options)
+    stop = threading.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: stop.set())
+    print(f"Delta Lab is running at {lab.url} (Ctrl-C stops it)", flush=True)
+    if options.open_browser:
+        webbrowser.open(lab.url)
+    try:
+        if not stop.wait(WARM_UP_AFTER_S):
+            lab.warm_up()
+            stop.wait()
+    finally:
+        lab.close()

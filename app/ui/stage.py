@@ -1,0 +1,115 @@
+"""The room around the robot: floor, light, theme and camera."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+import viser
+
+from app.robots import Robot
+from app.robots.parts import machine_of
+from app.ui import theme
+from app.ui.session import Session
+
+View = Literal["3-D", "Front", "Side", "Top"]
+
+FIELD_OF_VIEW = np.radians(38.0)
+"""Vertical; narrow enough that parallel rods look parallel."""
+
+PHONE_WIDTH_PX = 576
+"""Below this width the panels are a sheet over the lower part of the picture."""
+
+SHEET_HEIGHT = 0.42
+"""Share of a phone's height that the sheet takes."""
+
+SHEET_STYLE = f"""<style>@media (max-width: {PHONE_WIDTH_PX - 1}px) {{
+  .mantine-Paper-root[style*="20em"] {{ width: 100vw !important; max-height: {SHEET_HEIGHT:.0%} !important; }}
+  .mantine-Paper-root[style*="20em"] > * [style*="20em"] {{ width: 100vw !important; }}
+}}</style>"""
+"""viser's sheet is half as wide as a phone and covers more than half of its height."""
+
+DIRECTIONS: dict[View, tuple[float, float, float]] = {
+    "3-D": (0.55, -0.80, 0.28),
+    "Front": (0.0, -1.0, 0.02),
+    "Side": (1.0, 0.0, 0.02),
+    "Top": (0.0, -0.02, 1.0),
+}
+"""From what is looked at towards the eye."""
+
+
+def light_the_room(server: viser.ViserServer) -> None:
+    """Lights shared by everyone: soft light from all sides, one lamp that throws shadows."""
+    server.scene.configure_default_lights(enabled=False)
+    server.scene.configure_environment_map("studio", environment_intensity=0.16)
+    server.scene.add_light_directional("/light/lamp", intensity=0.75, cast_shadow=True, position=(0.7, -0.9, 1.6))
+    server.scene.add_light_directional("/light/fill", intensity=0.12, position=(-1.0, 0.4, 0.5))
+
+
+class Stage:
+    """Floor, theme and camera of one browser."""
+
+    def __init__(self, client: viser.ClientHandle, session: Session) -> None:
+        self._client = client
+        self._session = session
+        self._dark = session.view.dark
+        session.robot_changed.connect(lambda _: self._lay_floor())
+        session.view_changed.connect(lambda view: self._set_theme(view.dark))
+        self._apply_theme()
+        client.gui.add_html(SHEET_STYLE)
+        self.look("3-D")
+
+    def look(self, view: View) -> None:
+        """Turn the camera to a preset that shows the whole machine, on a wide screen or a tall one."""
+        camera = self._client.camera
+        low, high = _extent(self._session.robot)
+        focus, size = 0.5 * (low + high), float(np.linalg.norm(high - low))
+        direction = np.array(DIRECTIONS[view]) / np.linalg.norm(DIRECTIONS[view])
+        aspect = camera.image_width / max(camera.image_height, 1)
+        distance = 0.5 * size / np.tan(0.5 * FIELD_OF_VIEW) / min(1.0, max(aspect, 0.3))
+        if camera.image_width < PHONE_WIDTH_PX:
+            focus = focus - np.array([0.0, 0.0, 0.5 * SHEET_HEIGHT * size / max(aspect, 0.3)])
+        camera.fov = FIELD_OF_VIEW
+        camera.up_direction = (0.0, 0.0, 1.0)
+        camera.position = focus + direction * distance
+        camera.look_at = focus
+
+    def _set_theme(self, dark: bool) -> None:
+        if dark != self._dark:
+            self._dark = dark
+            self._apply_theme()
+
+    def _apply_theme(self) -> None:
+        self._client.gui.configure_theme(dark_mode=self._dark, show_logo=False, show_share_button=False)
+        self._lay_floor()
+
+    def _lay_floor(self) -> None:
+        plane = theme.DARK_FLOOR if self._dark else theme.LIGHT_FLOOR
+        line = (62, 67, 75) if self._dark else (214, 217, 222)
+        section = (84, 90, 100) if self._dark else (186, 190, 197)
+        self._client.scene.set_background_image(np.full((2, 2, 3), plane, dtype=np.uint8))
+        self._client.scene.add_grid(
+            "/floor",
+            infinite_grid=True,
+            cell_size=0.05,
+            section_size=0.25,
+            cell_color=line,
+            section_color=section,
+            cell_thickness=0.6,
+            section_thickness=1.0,
+            fade_distance=3.5,
+            fade_strength=1.6,
+            shadow_opacity=0.35 if self._dark else 0.22,
+            plane_color=plane,
+            plane_opacity=1.0,
+            position=(0.0, 0.0, machine_of(self._session.robot).floor),
+        )
+
+
+def _extent(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
+    """Corners of a box around the machine and its floor."""
+    skeleton = robot.skeleton(robot.home.tolist(), robot.solve(*robot.home.tolist()))
+    points = np.vstack([*skeleton[:3], robot.home[None, :3]])
+    low, high = points.min(axis=0), points.max(axis=0)
+    low[2] = min(low[2], machine_of(robot).floor)
+    return low - 0.05, high + 0.1

@@ -1,0 +1,71 @@
+"""What a session is in at one moment. Immutable: a change makes a new one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from app.robots import Reach
+
+Pose = tuple[float, ...]
+Joints = tuple[float, ...]
+Position = tuple[float, float, float]
+
+WorkspaceStyle = Literal["Off", "Surface", "Cloud"]
+
+
+@dataclass(frozen=True)
+class Stance:
+    """Where the robot stands and where it was asked to stand."""
+
+    pose: Pose
+    """(dof,) inside reach, m and rad."""
+    joints: Joints
+    wish: Pose
+    """(dof,) the gizmo; equals `pose` inside reach."""
+    reach: Reach
+    """Verdict on the wish."""
+
+    @property
+    def position(self) -> Position:
+        """(3,) of the pose, m."""
+        return self.pose[0], self.pose[1], self.pose[2]
+
+    @property
+    def wished_position(self) -> Position:
+        """(3,) of the wish, m."""
+        return self.wish[0], self.wish[1], self.wish[2]
+
+    @property
+    def blocked_leg(self) -> int | None:
+        """The leg, counted from 0, that stops the robot."""
+        return None if self.reach.ok or self.reach.leg is None else self.reach.leg - 1
+
+
+@dataclass(frozen=True)
+class ViewOptions:
+    """What is shown beside the robot."""
+
+    workspace: WorkspaceStyle = "Off"
+    workspace_angle: float = 0.0
+    """theta or phi at which the workspace is cut, rad."""
+    vectors_leg: int | None = None
+    """Leg, counted from 0, whose loop is drawn as vectors."""
+    frames: bool = False
+    trace: bool = False
+    elbows: bool = False
+    """Ghosts of the other elbow solutions."""
+    assemblies: bool = False
+    """Ghosts of the other assembly modes."""
+    dark: bool = False
+
+
+@dataclass(frozen=True)
+class Memory:
+    """What a browser finds again after a reload."""
+
+    robot: str
+    dimensions: dict[str, float] = field(default_factory=dict)
+    """Changed dimensions by symbol, m or rad."""
+    pose: Pose | None = None
+    view: ViewOptions = ViewOptions()
