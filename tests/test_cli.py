@@ -137,7 +137,7 @@ def test_meshes_are_written_where_asked(tmp_path: Path, capsys: pytest.CaptureFi
     folder = tmp_path / "parts"
     assert main(["meshes", "--directory", str(folder)]) == 0
     written = {Path(line) for line in capsys.readouterr().out.splitlines()}
-    assert written == set(folder.iterdir())
+    assert written == {path for path in folder.rglob("*") if path.is_file()}
     assert all(path.suffix == ".glb" and path.stat().st_size > 0 for path in written)
     assert written
 

@@ -68,7 +68,7 @@ def environment(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_the_wheel_holds_meshes_lessons_and_the_licence(wheel: Path) -> None:
     assert wheel.name.startswith(f"deltalab-{__version__}-py3-none-any")
     names = zipfile.ZipFile(wheel).namelist()
-    checkout = {f"app/_data/meshes/{path.name}" for path in (ROOT / "meshes").glob("*.glb")}
+    checkout = {f"app/_data/{path.relative_to(ROOT)}" for path in (ROOT / "meshes").rglob("*.glb")}
     assert checkout
     assert checkout <= set(names)
     assert "app/_data/lessons/README.md" in names

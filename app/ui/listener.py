@@ -24,7 +24,7 @@ from app.ui.rate_limit import TokenBucket
 AnswerHttp: TypeAlias = Callable[[ServerConnection, Request], Response | None]
 
 HEALTH_PATH = "/healthz"
-CLOSE_TIMEOUT = 1.0
+CLOSE_TIMEOUT = 0.5
 """Seconds that a page is given to say goodbye."""
 READ_BYTES = 16 * 1024
 """Read at once from one connection, before the others have their turn."""

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from collections.abc import AsyncGenerator, AsyncIterator, Callable, Iterator, Sequence
+from collections.abc import AsyncGenerator, AsyncIterator, Callable, Iterable, Iterator
 from contextlib import AbstractAsyncContextManager, asynccontextmanager, contextmanager
 from functools import partial
 from types import FunctionType, SimpleNamespace
@@ -93,13 +93,11 @@ class NodeStream:
     """Fast updates of one client's nodes: one message each, without comparing old and new values.
 
     As with viser's own setters, an update replaces an older one of the same kind that was not sent yet, and
-    `flush` sends what has gathered at once instead of up to 17 ms later. After the client has left, nothing
-    is sent.
+    `flush` sends what has gathered at once instead of up to 17 ms later.
     """
 
     def __init__(self, client: viser.ClientHandle) -> None:
         self._client = client
-        self._buffer = client._websock_connection.get_message_buffer()
 
     def place(
         self,
@@ -131,8 +129,8 @@ class NodeStream:
     def move(
         self,
         handle: viser.SceneNodeHandle,
-        position: Sequence[float],
-        wxyz: Sequence[float] | None = None,
+        position: Iterable[float],
+        wxyz: Iterable[float] | None = None,
     ) -> None:
         """Put a node at `position` (3,) in metres and turn it to `wxyz` (4,), relative to its parent."""
         x, y, z = map(float, position)
@@ -150,8 +148,7 @@ class NodeStream:
     def _queue(self, handle: viser.SceneNodeHandle, message: _messages.Message) -> None:
         if handle._impl.removed:
             raise RuntimeError(f"The node {handle._impl.name} has been removed.")
-        if not self._buffer.done:
-            handle._impl.api._queue_scene_message(message)
+        handle._impl.api._queue_scene_message(message)
 
 
 class _NodeUpdate(_messages.SceneNodeUpdateMessage):
@@ -298,6 +295,11 @@ class _ClientBuffer(AsyncMessageBuffer):
     def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
         near: Any = _NearLoop(loop)
         super().__init__(near, persistent_messages=False)
+
+    def push(self, message: infra.Message) -> None:
+        """What is said to a client that has left is no mistake, only late: viser warns and keeps it."""
+        if not self.done:
+            super().push(message)
 
     async def _window_loop(self, client_id: int, *_: Any) -> AsyncGenerator[list[infra.Message], None]:
         while not self.done:

@@ -16,7 +16,7 @@ class Load:
     bench_pct: float
     """The benchmark's own load: near 100 the latencies are its own."""
     others_pct: float
-    """Everything else on the machine: it should be next to nothing."""
+    """Everything else, also what the host of a virtual machine takes away: it should be next to nothing."""
     server_rss_mb: float
 
 
@@ -41,5 +41,5 @@ class Meter:
         return (
             server.user + server.system,
             bench.user + bench.system,
-            machine.user + machine.system + machine.nice,
+            machine.user + machine.system + machine.nice + getattr(machine, "steal", 0.0),
         )

@@ -1,104 +1,36 @@
-"""The drawn machines: shapes are closed, loops close in the very numbers that are sent to the browser."""
+"""The drawn machines move as the kinematics says: loops close in the very numbers that are sent to the browser."""
 
 from __future__ import annotations
 
 import math
-import subprocess
-import sys
-from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import ArrayLike, NDArray
 
-from app.robots import ROBOTS, GeometryError, Robot, make_robot
-from app.robots.parts import LEG, MATERIALS, Machine, Part, Placement, library, machine_of
+from app.robots import ROBOTS, Robot, make_robot
+from app.robots.parts import Placement, machine_of
 from app.robots.parts.belts import BELT
+from app.robots.parts.machine import RodPairs
 from app.robots.parts.par4 import HALF_SPACING as PAR4_HALF_SPACING
-from app.robots.parts.shading import split_sharp_edges
-
-MESHES = Path(__file__).parents[2] / "meshes"
-GAP = 1e-6
-"""Loops close to this (metres)."""
-
-VARIANTS: list[tuple[str, dict[str, Any]]] = [
-    *((name, {}) for name in ROBOTS),
-    ("par4", {"R": 0.12, "L": 0.26, "l": 0.45, "h": 0.05, "d": 0.08, "d_i": 0.02, "B_z": 0.03, "P_z": 0.055}),
-    ("delta3", {"f": 0.4573, "e": 0.115, "rf": 0.112, "re": 0.232, "q_min": math.radians(-35.0)}),
-    ("linear", {"S_A": 0.60, "U_A": 0.35, "W_A": 0.17, "l": 0.45, "s_p": 0.12}),
-    ("fivebar", {"l_f": 0.12, "l_p": 0.20, "l_d": 0.28, "z_min": -0.05, "z_max": 0.08}),
-]
+from tests.support.machines import (
+    VARIANTS,
+    close,
+    dimensions_of,
+    on_tool,
+    part_named,
+    path,
+    placed,
+    reachable_poses,
+    tangent,
+    where,
+)
 
 
 @pytest.fixture(params=VARIANTS, ids=lambda variant: f"{variant[0]}-{len(variant[1])}")
 def robot(request: pytest.FixtureRequest) -> Robot:
     name, dimensions = request.param
     return make_robot(name, **dimensions)
-
-
-def dimensions_of(robot: Robot) -> Any:
-    """The robot's own geometry, whose fields depend on the robot."""
-    return robot.geometry
-
-
-def reachable_poses(robot: Robot, count: int, seed: int = 1) -> NDArray[np.float64]:
-    """Poses all over the workspace."""
-    rng = np.random.default_rng(seed)
-    spread = np.array([0.25, 0.25, 0.35, 3.0])[: robot.dof]
-    poses = robot.home + rng.uniform(-1.0, 1.0, (200 * count, robot.dof)) * spread
-    poses = poses[robot.reachable(poses)]
-    assert len(poses) >= count
-    return poses[:count]
-
-
-def path(robot: Robot) -> Iterator[NDArray[np.float64]]:
-    """Small steps on a closed curve through much of the workspace, turning where the robot can turn."""
-    targets = reachable_poses(robot, 6, seed=5)
-    for start, end in zip(targets, np.roll(targets, -1, axis=0), strict=True):
-        for t in np.linspace(0.0, 1.0, 300, endpoint=False):
-            yield robot.nearest(start + t * (end - start))
-
-
-def rotated(wxyz: ArrayLike, point: ArrayLike) -> NDArray[np.float64]:
-    """A point turned by a quaternion, as three.js does it: without normalising."""
-    w, x, y, z = np.asarray(wxyz, dtype=float)
-    columns = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    return np.array(columns) @ np.asarray(point, dtype=float)
-
-
-def where(placement: Placement, copy: int, point: ArrayLike) -> NDArray[np.float64]:
-    """A point of one copy of a body, in the base frame."""
-    return placement.positions[copy] + rotated(placement.wxyzs[copy], point)
-
-
-def on_tool(machine: Machine, pose: NDArray[np.float64], point: ArrayLike) -> NDArray[np.float64]:
-    """A point of the tool frame, in the base frame."""
-    position, wxyz = machine.tool_frame(pose.tolist())
-    return np.array(position, dtype=np.float32) + rotated(np.array(wxyz, dtype=np.float32), point)
-
-
-def placed(robot: Robot, machine: Machine, pose: NDArray[np.float64]) -> dict[str, Placement]:
-    values = pose.tolist()
-    return machine.place(values, robot.solve(*values))
-
-
-def close(one: ArrayLike, other: ArrayLike) -> bool:
-    return float(np.linalg.norm(np.asarray(one) - np.asarray(other))) < GAP
-
-
-def tangent(azimuth_deg: float) -> NDArray[np.float64]:
-    a = math.radians(azimuth_deg)
-    return np.array([-math.sin(a), math.cos(a), 0.0])
-
-
-def part_named(machine: Machine, name: str) -> Part:
-    return next(part for part in machine.parts if part.name == name)
 
 
 @pytest.mark.parametrize("dimensions", [values for name, values in VARIANTS if name == "par4"])
@@ -302,138 +234,9 @@ def test_machines_move_continuously(robot: Robot) -> None:
 
 
 def test_a_rod_may_hang_straight_down_or_point_up() -> None:
-    from app.robots.parts.machine import RodPairs
-
     pairs = RodPairs([0.3], 0.02)
     for lower in ((0.0, 0.0, -0.4), (1e-9, 0.0, -0.4), (0.0, 0.0, 0.4), (0.4, 0.0, 0.0)):
         placement = pairs.place([(0.0, 0.0, 0.0)], [lower])
         length = float(np.linalg.norm(lower))
         middle = 0.5 * (where(placement, 0, (0.0, 0.0, -length)) + where(placement, 1, (0.0, 0.0, -length)))
         assert close(middle, lower)
-
-
-def test_shapes_are_closed_and_turned_inside_out_nowhere(robot: Robot) -> None:
-    for part in machine_of(robot).parts:
-        mesh = part.mesh()
-        assert mesh.is_watertight, part.name
-        assert mesh.is_winding_consistent, part.name
-        assert all(body.volume > 0.0 for body in mesh.split(only_watertight=False)), part.name
-
-
-@pytest.mark.parametrize("name", ROBOTS)
-def test_shapes_stay_closed_at_the_ends_of_every_dimension(name: str) -> None:
-    tried = 0
-    for symbol, dimension in ROBOTS[name].geometry.dimensions().items():
-        for value in (dimension.low, dimension.high):
-            try:
-                robot = make_robot(name, **dict[str, Any]({symbol: value}))
-            except GeometryError:
-                continue
-            tried += 1
-            for part in machine_of(robot).parts:
-                mesh = part.mesh()
-                assert len(mesh.faces) > 0, f"{symbol}={value}: {part.name}"
-                assert mesh.is_watertight, f"{symbol}={value}: {part.name}"
-    assert tried >= 5
-
-
-def test_names_and_materials_are_known(robot: Robot) -> None:
-    machine = machine_of(robot)
-    names = [part.name for part in machine.parts]
-    assert len(set(names)) == len(names)
-    assert {part.material for part in machine.parts} <= {*MATERIALS, LEG}
-    for body in machine.bodies:
-        if any(part.material == LEG for part in body.parts):
-            assert None not in body.legs
-
-
-def test_changing_a_length_changes_only_the_parts_that_have_it() -> None:
-    before, after = (set(machine_of(make_robot("par4", l=l)).parts) for l in (0.386, 0.40))
-    assert {part.name for part in after - before} == {"rod", "rod_fittings", "stand", "stand_fittings"}
-
-
-def test_machines_stand_on_their_floor(robot: Robot) -> None:
-    machine = machine_of(robot)
-    lowest = min(
-        part.mesh().bounds[0, 2] + float(body.fixed.positions[:, 2].min())
-        for body in machine.bodies
-        if body.fixed is not None and body.frame == "base"
-        for part in body.parts
-    )
-    assert lowest == pytest.approx(machine.floor, abs=1e-6)
-    tool_low = min(part.mesh().bounds[0, 2] for body in machine.bodies if body.frame == "tool" for part in body.parts)
-    assert tool_low == pytest.approx(machine.tool_tip, abs=1e-6)
-    heights = reachable_poses(robot, 300)[:, 2]
-    assert heights.min() + tool_low > machine.floor
-
-
-def test_machines_have_a_sane_size() -> None:
-    for name, low, high in (("par4", 0.7, 1.1), ("delta3", 0.5, 1.1), ("linear", 0.8, 1.2), ("fivebar", 0.3, 0.8)):
-        machine = machine_of(make_robot(name))
-        corners = []
-        for body in machine.bodies:
-            if body.fixed is None or body.frame == "tool":
-                continue
-            for part in body.parts:
-                box = part.mesh().bounding_box.vertices
-                corners += [where(body.fixed, copy, corner) for copy in range(len(body.legs)) for corner in box]
-        size = np.ptp(np.array(corners), axis=0)
-        assert low < size.max() < high, name
-
-
-def test_sharp_edges_are_split_and_round_ones_are_not() -> None:
-    import trimesh
-
-    cube = trimesh.creation.box()
-    vertices, faces = split_sharp_edges(cube.vertices, cube.faces)
-    assert (len(vertices), len(faces)) == (24, 12)
-    ball = trimesh.creation.icosphere(subdivisions=3)
-    vertices, faces = split_sharp_edges(ball.vertices, ball.faces)
-    assert len(vertices) == len(ball.vertices)
-    assert np.allclose(vertices[faces], ball.vertices[ball.faces], atol=1e-6)
-
-
-def test_arrays_draw_the_same_triangles_as_the_mesh(robot: Robot) -> None:
-    for part in machine_of(robot).parts:
-        mesh, (vertices, faces) = part.mesh(), part.arrays()
-        assert vertices.dtype == np.float32
-        assert faces.dtype == np.uint32
-        assert np.allclose(vertices[faces], mesh.vertices[mesh.faces], atol=1e-6)
-
-
-@pytest.mark.parametrize("name", ROBOTS)
-def test_committed_meshes_are_what_the_code_builds(name: str) -> None:
-    parts = machine_of(make_robot(name)).parts
-    assert {path.stem for path in (MESHES / name).glob("*.glb")} == {part.name for part in parts}
-    for part in parts:
-        built, read = part.mesh(), library.load(name, part.name, MESHES)
-        assert read.is_watertight, part.name
-        assert np.allclose(read.bounds, built.bounds, atol=1e-6), part.name
-        assert read.area == pytest.approx(built.area, rel=1e-4), part.name
-        assert read.volume == pytest.approx(built.volume, rel=1e-3), part.name
-
-
-def test_committed_meshes_are_small() -> None:
-    assert sum(path.stat().st_size for path in MESHES.glob("*/*.glb")) < 600_000
-
-
-def test_meshes_are_written_anew_without_leftovers(tmp_path: Path) -> None:
-    stale = tmp_path / "par4" / "propeller.glb"
-    stale.parent.mkdir()
-    stale.write_bytes(b"")
-    written = library.build_all(tmp_path)
-    assert not stale.exists()
-    assert sorted(written) == sorted(tmp_path.glob("*/*.glb"))
-    assert library.load("par4", "arm", tmp_path).is_watertight
-    with pytest.raises(FileNotFoundError, match="propeller"):
-        library.load("par4", "propeller", tmp_path)
-
-
-def test_kinematics_do_not_load_solid_modelling_and_drawing_does_not_load_trimesh() -> None:
-    script = (
-        "import sys; from app.robots import make_robot; robot = make_robot('par4');"
-        "assert 'manifold3d' not in sys.modules;"
-        "from app.robots.parts import machine_of; [part.arrays() for part in machine_of(robot).parts];"
-        "assert 'trimesh' not in sys.modules"
-    )
-    subprocess.run([sys.executable, "-c", script], check=True, cwd=MESHES.parent)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
-import threading
-from collections.abc import Iterator
+import http.client
+import io
+import math
+from collections.abc import AsyncIterator, Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -12,6 +15,7 @@ import viser
 
 from app.ui.guard import Guard
 from app.ui.viser_adapter import start_server, stop_server
+from tests.support.wire import WireClient, wire_client
 
 HOST = "127.0.0.1"
 GIZMO, TOOL, GROUP = "/robot/gizmo", "/robot/tool", "/robot/group"
@@ -29,8 +33,8 @@ class SmallLab:
         self.gizmos: dict[int, viser.TransformControlsHandle] = {}
         self.groups: dict[int, viser.BatchedMeshHandle] = {}
         self.tools: dict[int, viser.FrameHandle] = {}
-        self.everyone = threading.Condition()
-        self._hear("Shared", server.gui.add_slider("Shared", min=0.0, max=1.0, step=0.01, initial_value=0.5))
+        self.shared = server.gui.add_slider("Shared", min=0.0, max=1.0, step=0.01, initial_value=0.5)
+        self._hear("Shared", self.shared)
         server.on_client_connect(self._furnish)
 
     @property
@@ -40,6 +44,25 @@ class SmallLab:
     def values(self, label: str) -> list[Any]:
         """What the callbacks of one input were given."""
         return [value for _, heard, value in list(self.heard) if heard == label]
+
+    def get(self, path: str = "/", headers: Mapping[str, str] | None = None) -> http.client.HTTPResponse:
+        """The answer to a request for a page, already read."""
+        connection = http.client.HTTPConnection(HOST, self.server.get_port(), timeout=10)
+        connection.request("GET", path, headers=dict(headers or {}))
+        response = connection.getresponse()
+        response.read()
+        return response
+
+    @contextlib.asynccontextmanager
+    async def visit(self, headers: Mapping[str, str] | None = None) -> AsyncIterator[WireClient]:
+        """A client that has been shown everything."""
+        async with wire_client(self.url, headers=headers) as client:
+            await client.wait_for(lambda: GIZMO in client.nodes, "gizmo")
+            yield client
+
+    def client_of(self, client: WireClient) -> viser.ClientHandle:
+        """The server's end of a client."""
+        return self.clients[int(client.nodes[GIZMO]["owner"])]
 
     async def _furnish(self, client: viser.ClientHandle) -> None:
         scene, gui, number = client.scene, client.gui, client.client_id
@@ -53,7 +76,7 @@ class SmallLab:
             lod="off",
         )
         self._hear("Speed", gui.add_slider("Speed", min=0.0, max=1.0, step=0.001, initial_value=0.5))
-        self._hear("Height", gui.add_number("Height", 0.0, min=-100.0, max=100.0))
+        self._hear("Height", gui.add_number("Height", 0.0, min=-100.0, max=100.0, step=0.5))
         self._hear("Count", gui.add_number("Count", 1, min=0, max=1000, step=1))
         self._hear("Robot", gui.add_dropdown("Robot", ("par4", "delta3"), initial_value="par4"))
         self._hear("Name", gui.add_text("Name", ""))
@@ -94,6 +117,21 @@ class SmallLab:
             self.heard.append((-1 if event.client_id is None else event.client_id, label, (file.name, file.content)))
 
 
+async def eventually(condition: Callable[[], Any], what: str, timeout: float = 10.0) -> None:
+    """Wait until something is so on the server."""
+    for _ in range(math.ceil(timeout / 0.01)):
+        if condition():
+            return
+        await asyncio.sleep(0.01)
+    raise AssertionError(f"no {what} within {timeout:g} s")
+
+
+async def round_trip(client: WireClient, position: tuple[float, float, float], timeout: float = 10.0) -> None:
+    """Drag the gizmo and wait until the tool has followed: all that was sent before has then been dealt with."""
+    await client.drag(GIZMO, position)
+    await client.wait_for(lambda: client.positions.get(TOOL) == position, f"tool at {position}", timeout)
+
+
 @contextlib.contextmanager
 def guarded_lab(guard: Guard | None = None) -> Iterator[SmallLab]:
     """Behind a guard, as Delta Lab runs it."""
@@ -107,10 +145,10 @@ def guarded_lab(guard: Guard | None = None) -> Iterator[SmallLab]:
 @contextlib.contextmanager
 def bare_lab() -> Iterator[SmallLab]:
     """viser alone: what an attack does where nobody guards."""
-    with contextlib.redirect_stdout(None):
+    with contextlib.redirect_stdout(io.StringIO()):
         server = viser.ViserServer(HOST, 0, verbose=False)
     try:
         yield SmallLab(server)
     finally:
-        with contextlib.redirect_stdout(None):
+        with contextlib.redirect_stdout(io.StringIO()):
             server.stop()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.robots.parts.rods import cross_shaft
-from app.robots.parts.solids import FINE, Solid, Solids, along_y, circle, disc, lathe, prism, slot
+from app.robots.parts.solids import FINE, Solid, Solids, along_y, circle, disc, grown, lathe, prism, slot
 
 HUB_RADIUS = 0.0205
 HUB_HALF_WIDTH = 0.0115
@@ -30,7 +30,7 @@ def _beam(length: float, half: float) -> Solids:
     outline = slot((0.0, 0.0), (length, 0.0), wide, narrow)
     count = max(1, round((end - start) / 0.035))
     step = (end - start) / count
-    web = pocket.offset(0.0005)
+    web = grown(pocket, 0.0005)
     for k in range(count):
         web -= circle(0.0068 - 0.0034 * (k + 0.5) / count, (start + (k + 0.5) * step, 0.0))
     return [prism(outline - pocket, -half, half), prism(web, 0.0042 - half, half - 0.0042)]

@@ -54,7 +54,8 @@ class Delta3Machine(Machine):
             Body(
                 "stand",
                 (
-                    Part("stand", "aluminium", shapes.stand, stand),
+                    Part("spokes", "aluminium", shapes.spokes, stand[:1]),
+                    Part("posts", "steel", shapes.posts, stand),
                     Part("stand_fittings", "motor", shapes.stand_fittings, stand),
                 ),
                 fixed=ORIGIN,

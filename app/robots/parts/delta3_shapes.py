@@ -26,7 +26,7 @@ from app.robots.parts.solids import (
     ring,
     slot,
 )
-from app.robots.parts.stands import FOOT_HEIGHT, beam, feet, gusset, profile
+from app.robots.parts.stands import FOOT_HEIGHT, beam, feet
 
 PLATE_TOP, PLATE = -0.030, 0.008
 SIDE = 0.030
@@ -57,29 +57,34 @@ def base_box(rb: float) -> Solids:
     ]
 
 
-def stand(radius: float, floor: float) -> Solids:
-    """Three spokes under the base plate and three posts.
+def spokes(radius: float) -> Solids:
+    """Three profiles under the base plate that lead to the posts.
 
     Args:
         radius: of the circle on which the posts stand.
+    """
+    return around(beam((0.014, 0.0), (radius + 0.016, 0.0), PLATE_TOP - PLATE - 0.5 * SIDE, SIDE), 3, POSTS[0])
+
+
+def posts(radius: float, floor: float) -> Solids:
+    """Three slim round posts: they hide little of the robot.
+
+    Args:
+        radius: of the circle on which they stand.
         floor: height.
     """
-    z = PLATE_TOP - PLATE - 0.5 * SIDE
-    spoke = beam((0.014, 0.0), (radius - 0.5 * SIDE, 0.0), z, SIDE)
-    post = profile(floor + FOOT_HEIGHT, z + 0.5 * SIDE, SIDE).translate((radius, 0.0, 0.0))
-    return [*around(spoke, 3, POSTS[0]), *around(post, 3, POSTS[0])]
+    top = PLATE_TOP - PLATE
+    post = disc(0.009, floor + FOOT_HEIGHT - 0.002, top - SIDE + 0.001, 0.0).translate((radius, 0.0, 0.0))
+    return around(post, 3, POSTS[0])
 
 
 def stand_fittings(radius: float, floor: float) -> Solids:
-    """Corner brackets, end caps and feet."""
-    z = PLATE_TOP - PLATE
-    corner = [
-        piece.mirror((0.0, 0.0, 1.0)).mirror((1.0, 0.0, 0.0)).translate((radius - 0.5 * SIDE, 0.0, z - SIDE))
-        for piece in gusset(0.055, 0.020)
-    ]
-    cap = bevelled(regular(4, 0.5 * SIDE), z, z + 0.004, 0.001).translate((radius, 0.0, 0.0))
-    feet_ = feet(floor, [(radius, 0.0)])
-    return [piece for turn in POSTS for piece in moved([*corner, cap, *feet_], turn=turn)]
+    """Clamps between posts and spokes, end caps and feet."""
+    top = PLATE_TOP - PLATE
+    clamp = disc(0.0145, -SIDE - 0.030, -SIDE, 0.0015)
+    cap = box((0.004, SIDE, SIDE), (radius + 0.018, 0.0, top - 0.5 * SIDE), 0.001)
+    pieces = [clamp.translate((radius, 0.0, top)), cap, *feet(floor, [(radius, 0.0)])]
+    return [piece for turn in POSTS for piece in moved(pieces, turn=turn)]
 
 
 def platform_star(rp: float, half_spacing: float, ball_radius: float, azimuths: Sequence[float]) -> Solids:

@@ -70,6 +70,7 @@ class FiveBarMachine(Machine):
                 "base",
                 (
                     Part("pedestal", "housing", shapes.pedestal, (half, radius, floor)),
+                    Part("foot_plate", "housing", shapes.foot_plate, (half, radius, floor), casts_shadow=False),
                     Part("gearboxes", "aluminium", shapes.gearboxes, (half, radius)),
                 ),
                 fixed=standing((0.0, 0.0, self.lift)),

@@ -18,9 +18,11 @@ from app.robots.parts.solids import (
     Solid,
     Solids,
     bevelled,
+    both_sides,
     box,
     circle,
     disc,
+    grown,
     hull,
     lathe,
     polygon,
@@ -49,7 +51,7 @@ def proximal_link(length: float, wide: float) -> Solids:
     cavity = slot((0.0, 0.0), (length, 0.0), wide - 0.0045, narrow - 0.0045)
     start, end = wide + 0.012, length - narrow - 0.010
     opening = slot((start, 0.0), (end, 0.0), 0.5 * wide, 0.44 * narrow)
-    skin = cavity.offset(0.0005) - opening - circle(0.0105, (length, 0.0))
+    skin = grown(cavity, 0.0005) - opening - circle(0.0105, (length, 0.0))
     return [
         prism(outline - cavity, -h, h),
         prism(skin, h - 0.004, h),
@@ -65,7 +67,7 @@ def distal_tube(length: float) -> Solids:
     z0, z1 = DISTAL
     side = 0.5 * (z1 - z0) - 0.0015
     square = polygon([(-side, -side), (side, -side), (side, side), (-side, side)])
-    tube = prism(square.offset(0.001) - square.offset(-0.0018), 0.020, length - 0.018)
+    tube = prism(grown(square, 0.001) - grown(square, -0.0018), 0.020, length - 0.018)
     belt_z = (OUTER_WHEEL[0] + 0.0018, OUTER_WHEEL[1] - 0.0018)
     loop = belt((0.0, 0.0), WHEEL_RADIUS, (length, 0.0), WHEEL_RADIUS, *belt_z)
     nut = [piece.translate((length, 0.0, 0.0)) for piece in _nut()]
@@ -156,29 +158,32 @@ def shaft_stops(low: float, high: float) -> Solids:
 
 
 def pedestal(half: float, radius: float, floor: float) -> Solids:
-    """The cast body: a column behind the motors, the head that holds both gearboxes, a wide foot.
+    """The cast body: a column behind the motors and the head that holds both gearboxes.
 
     Args:
         half: half the distance between the motors.
         radius: of the gearboxes.
         floor: height.
     """
-    wall = 0.007
-    z1, z0 = GEARBOX_TOP - 0.010, GEARBOX_TOP - 0.052
-    back = -radius - 0.060
-    rear = [(s * (half + 0.4 * radius), back + 0.012) for s in (-1.0, 1.0)]
+    z1, z0, back = GEARBOX_TOP - 0.010, GEARBOX_TOP - 0.052, _behind(radius)
     column = bevelled(_rounded(half + 0.2 * radius, 0.036, (0.0, back)), floor + 0.010, z1 - 0.004, 0.002)
-    rings = [ring(radius + wall, radius - 0.001, z0, z1, 0.0, FINE).translate((s * half, 0.0, 0.0)) for s in (-1, 1)]
-    arms = [
-        hull(
-            disc(0.6 * radius, z0 + 0.006, z1 - 0.006).translate((x, y, 0.0)),
-            box((0.9 * radius, 0.006, z1 - z0 - 0.006), (s * half, -radius - 0.002, 0.5 * (z0 + z1))),
-        )
-        for s, (x, y) in zip((-1.0, 1.0), rear, strict=True)
-    ]
+    collar = ring(radius + 0.007, radius - 0.001, z0, z1, 0.0, FINE)
+    rear = disc(0.6 * radius, z0 + 0.006, z1 - 0.006).translate((0.4 * radius, back + 0.012, 0.0))
+    front = box((0.9 * radius, 0.006, z1 - z0 - 0.006), (0.0, -radius - 0.002, 0.5 * (z0 + z1)))
+    side = [piece.translate((half, 0.0, 0.0)) for piece in (collar, hull(rear, front))]
     bridge = box((2.0 * half, 0.022, 0.026), (0.0, -0.45 * radius, 0.5 * (z0 + z1)), 0.002)
-    base = bevelled(_rounded(half + 0.2 * radius + 0.045, 0.090, (0.0, back + 0.010)), floor, floor + 0.014, 0.003)
-    return [column, *rings, *arms, bridge, base]
+    return [column, bridge, *(piece for solid in side for piece in both_sides(solid))]
+
+
+def foot_plate(half: float, radius: float, floor: float) -> Solid:
+    """The pedestal's wide foot."""
+    outline = _rounded(half + 0.2 * radius + 0.045, 0.090, (0.0, _behind(radius) + 0.010))
+    return bevelled(outline, floor, floor + 0.014, 0.003)
+
+
+def _behind(radius: float) -> float:
+    """y of the column's middle."""
+    return -radius - 0.060
 
 
 def _rounded(half_width: float, half_depth: float, centre: Point) -> CrossSection:

@@ -54,13 +54,14 @@ class LinearMachine(Machine):
         )
 
     def _fixed_bodies(self) -> tuple[Body, ...]:
-        g, columns = self._geometry, self._columns()
-        low = self.floor + FOOT_HEIGHT + shapes.PLATE
-        axis = (0.085, min(low, -g.stroke - 0.11))
+        columns = self._columns()
+        high, low, thick = 0.085, self.floor + FOOT_HEIGHT + shapes.PLATE, shapes.PLATE
+        axis = (high, low)
+        top, bottom = (columns, high, high + thick, True), (columns, low - thick, low, False)
         plates = (
-            Part("top_plate", "housing", shapes.end_plate, (columns, axis[0], axis[0] + shapes.PLATE, 1.0)),
-            Part("bottom_plate", "housing", shapes.end_plate, (columns, axis[1] - shapes.PLATE, axis[1], 0.0)),
-            Part("feet", "rubber", shapes.stand_feet, (columns, axis[1] - shapes.PLATE - FOOT_HEIGHT)),
+            Part("top_plate", "housing", shapes.end_plate, top, casts_shadow=False),
+            Part("bottom_plate", "housing", shapes.end_plate, bottom, casts_shadow=False),
+            Part("feet", "rubber", shapes.stand_feet, (columns, self.floor)),
         )
         positions = vectors([v for x, y in self._joints for v in (x, y, 0.0)])
         return (
@@ -106,7 +107,7 @@ class LinearMachine(Machine):
             "platform",
             (
                 Part("platform_plate", "aluminium", shapes.platform_plate, plate),
-                Part("tool_flange", "housing", shapes.tool_flange, (self.tool_tip,)),
+                Part("tool_flange", "housing", shapes.tool_flange, ()),
                 Part("suction_cup", "rubber", tools.suction_cup, (-0.009, self.tool_tip)),
             ),
             frame="tool",

@@ -25,6 +25,7 @@ from app.robots.parts.solids import (
     circle,
     cut,
     disc,
+    grown,
     lathe,
     moved,
     prism,
@@ -34,7 +35,7 @@ from app.robots.parts.stands import feet, profile
 
 RAIL = 0.034
 """Distance of the guide rail's face from the rod joints."""
-SIDE = 0.040
+SIDE = 0.032
 """Side of the column behind it."""
 COLUMN = RAIL + 0.010 + 0.5 * SIDE
 CARRIAGE_HALF = 0.032
@@ -69,7 +70,7 @@ def _pulley_heights(top: float, low: float) -> Point:
 def axis_ends(top: float, low: float) -> Solids:
     """Bearing brackets at both ends of the belt: a cheek beside the wheel, fixed to the column's side."""
     cheek = box((0.046, 0.007, 0.042), (RAIL + 0.014, BELT_Y - 0.0105, 0.0), 0.001)
-    web = box((0.014, 0.024, 0.042), (RAIL + 0.030, BELT_Y - 0.0015, 0.0), 0.001)
+    web = box((0.014, 0.030, 0.042), (RAIL + 0.030, BELT_Y + 0.0010, 0.0), 0.001)
     return at(cheek, [(0.0, 0.0, z) for z in _pulley_heights(top, low)]) + at(
         web, [(0.0, 0.0, z) for z in _pulley_heights(top, low)]
     )
@@ -117,19 +118,12 @@ def carriage_shoes() -> Solids:
     return [*at(shoe, [(0.0, 0.0, -0.0175), (0.0, 0.0, 0.0175)]), *at(screw, corners)]
 
 
-def end_plate(columns: Sequence[Point], z0: float, z1: float, opening: float) -> Solid:
-    """A plate around all columns with a large opening.
-
-    Args:
-        columns: (x, y) of each.
-        opening: how much of the plate's inner circle is open, 0 to 1.
-    """
-    outline = CrossSection.batch_hull([circle(0.050, c) for c in columns])
-    inner = CrossSection.batch_hull([circle(0.050, c) for c in columns]).offset(-0.105)
+def end_plate(columns: Sequence[Point], z0: float, z1: float, opened: bool) -> Solid:
+    """A plate around all columns, with a large opening or without."""
+    outline = CrossSection.batch_hull([circle(0.046, c) for c in columns])
+    inner = grown(outline, -0.100)
     plate = bevelled(outline, z0, z1, 0.0015)
-    if not opening or inner.is_empty():
-        return plate
-    return cut(plate, prism(inner, z0 - 0.01, z1 + 0.01))
+    return cut(plate, prism(inner, z0 - 0.01, z1 + 0.01)) if opened and not inner.is_empty() else plate
 
 
 def stand_feet(columns: Sequence[Point], floor: float) -> Solids:
@@ -169,6 +163,6 @@ def _slot_between(start: Point, end: Point) -> CrossSection:
     return CrossSection.batch_hull([circle(0.0068, along(0.34), 12), circle(0.0040, along(0.72), 12)])
 
 
-def tool_flange(tip: float) -> Solids:
+def tool_flange() -> Solids:
     """The tool's socket in the hub."""
     return [disc(0.0135, -0.010, 0.012, 0.0012), disc(0.0065, 0.011, 0.030, 0.001, 14)]

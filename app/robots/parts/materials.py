@@ -17,7 +17,6 @@ class Material(NamedTuple):
 MATERIALS: dict[str, Material] = {
     "aluminium": Material((214, 217, 221), 0.85, 0.42),
     "steel": Material((128, 133, 140), 0.95, 0.28),
-    "brass": Material((201, 165, 96), 0.9, 0.35),
     "carbon": Material((38, 40, 44), 0.25, 0.5),
     "housing": Material((58, 64, 73), 0.1, 0.6),
     "motor": Material((34, 37, 42), 0.4, 0.45),

@@ -21,6 +21,7 @@ from app.robots.parts.solids import (
     bevelled,
     cut,
     disc,
+    grown,
     moved,
     polygon,
     prism,
@@ -58,7 +59,7 @@ def _window(inner: float, outer: float, opening: float) -> Solid:
     points: list[Point] = [(outer * math.cos(a), outer * math.sin(a)) for a in angles]
     points += [(inner * math.cos(a), inner * math.sin(a)) for a in reversed(angles)]
     radius = 0.2 * (outer - inner)
-    outline = polygon(points).offset(-radius).offset(radius, circular_segments=12)
+    outline = grown(grown(polygon(points), -radius), radius)
     return prism(outline, PLATE_TOP - 2 * PLATE, PLATE_TOP + PLATE)
 
 

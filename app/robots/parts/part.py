@@ -40,6 +40,8 @@ class Part:
     build: Callable[..., Solid | Solids]
     dimensions: tuple[Any, ...]
     """What `build` is called with: everything that decides the shape."""
+    casts_shadow: bool = True
+    """Off for large plates, which a renderer covers with stripes of their own shadow."""
 
     def arrays(self) -> Arrays:
         """Vertices (v, 3) float32 and faces (f, 3) uint32 to draw with smooth normals: sharp edges are split."""

@@ -1,7 +1,7 @@
 """Solid modelling in metres: turned, extruded and hulled bodies, closed also where they are cut.
 
 A `Solid` is a Manifold; `.translate`, `.rotate` (degrees) and `.mirror` move it. Shapes are lists of solids that
-may overlap: joining them for real costs milliseconds and shows nothing new. Edges that a hand could touch are
+may overlap: to unite them costs milliseconds and shows nothing new. Edges that a hand could touch are
 bevelled: the bright line along an edge is what makes metal look like metal.
 """
 
@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-from manifold3d import CrossSection, Manifold, OpType
+from manifold3d import CrossSection, JoinType, Manifold, OpType
 
 Solid = Manifold
 Solids = list[Manifold]
@@ -19,11 +19,6 @@ Point = tuple[float, float]
 
 FINE, ROUND, COARSE = 24, 16, 8
 """Segments around large, medium and small turned bodies."""
-
-
-def union(*solids: Solid) -> Solid:
-    """One body of several that may overlap, without what lies inside."""
-    return Manifold.batch_boolean(list(solids), OpType.Add)
 
 
 def cut(body: Solid, *tools: Solid) -> Solid:
@@ -102,11 +97,6 @@ def box(size: Sequence[float], centre: Sequence[float] = (0.0, 0.0, 0.0), bevel:
     return body.translate((float(centre[0]), float(centre[1]), float(centre[2])))
 
 
-def along_x(solid: Solid) -> Solid:
-    """Turns a body's z axis into x (its x axis points down)."""
-    return solid.rotate((0.0, 90.0, 0.0))
-
-
 def along_y(solid: Solid) -> Solid:
     """Turns a body's z axis into y (its y axis points down)."""
     return solid.rotate((-90.0, 0.0, 0.0))
@@ -119,8 +109,13 @@ def prism(outline: CrossSection, z0: float, z1: float) -> Solid:
 
 def bevelled(outline: CrossSection, z0: float, z1: float, bevel: float) -> Solid:
     """A plate of a convex outline with bevelled rims."""
-    inner = outline.offset(-bevel)
+    inner = grown(outline, -bevel)
     return hull(prism(inner, z0, z1), prism(outline, z0 + bevel, z1 - bevel))
+
+
+def grown(outline: CrossSection, by: float) -> CrossSection:
+    """An outline moved outwards (or inwards, where negative), with round corners."""
+    return outline.offset(by, JoinType.Round, 2.0, COARSE)
 
 
 def circle(radius: float, centre: Point = (0.0, 0.0), segments: int = ROUND) -> CrossSection:

@@ -73,10 +73,3 @@ def pen_cone(tip: float) -> Solid:
 def pen_point(tip: float) -> Solid:
     """The point that touches the paper."""
     return lathe([(0.0, tip), (0.0012, tip + 0.0047), (0.0, tip + 0.0047)], COARSE)
-
-
-def pen_holder(low: float, high: float) -> Solids:
-    """A clamp around the barrel with its thumb screw."""
-    screw = [(0.0, 0.008), (0.0018, 0.008), (0.0018, 0.0150), (0.0048, 0.0150), (0.0048, 0.0200), (0.0, 0.0200)]
-    knob = lathe(screw, 12).rotate((0.0, 90.0, 0.0))
-    return [disc(0.0095, low, high, 0.0008), knob.translate((0.0, 0.0, 0.5 * (low + high)))]
