@@ -59,9 +59,7 @@ def run(arguments: list[str]) -> None:
         options, execute = COMMANDS[first]
         execute(parse(options, f"deltalab {first}", arguments[1:]))
     elif first and not first.startswith("-"):
-        raise UserMistake(
-            f"There is no command {first!r}: choose {', '.join(COMMANDS)}, or none to serve the page."
-        )
+        raise UserMistake(f"There is no command {first!r}: choose {', '.join(COMMANDS)}, or none to serve the page.")
     else:
         serve(parse(ServeOptions, "deltalab", arguments, description=overview()))
 

@@ -42,11 +42,10 @@ def test_defaults(served: list[ServeOptions]) -> None:
 
 
 def test_every_option(served: list[ServeOptions]) -> None:
-    line = (
-        "--host 0.0.0.0 --port 9000 --robot delta3 --no-browser --allow-host a.example --allow-host b.example"
-    )
-    assert main(line.split()) == 0
-    assert served == [ServeOptions("0.0.0.0", 9000, "delta3", False, ("a.example", "b.example"))]
+    line = "--host 0.0.0.0 --port 9000 --robot delta3 --no-browser --no-shadows"
+    hosts = "--allow-host a.example --allow-host b.example"
+    assert main([*line.split(), *hosts.split()]) == 0
+    assert served == [ServeOptions("0.0.0.0", 9000, "delta3", False, False, ("a.example", "b.example"))]
 
 
 @pytest.mark.parametrize("robot", ROBOTS)

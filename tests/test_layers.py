@@ -62,9 +62,7 @@ def misplaced_imports(path: Path, root: Path = ROOT) -> list[str]:
 
 def private_reaches(source: str) -> list[int]:
     """Lines that touch somebody else's private names: `other._name`, or `_name` imported from viser."""
-    return [
-        line for node in ast.walk(ast.parse(source)) for line, name in _foreign_names(node) if _private(name)
-    ]
+    return [line for node in ast.walk(ast.parse(source)) for line, name in _foreign_names(node) if _private(name)]
 
 
 def _foreign_names(node: ast.AST) -> list[tuple[int, str]]:
@@ -120,8 +118,7 @@ def test_a_wrong_import_is_found(tmp_path: Path, file: str, source: str, complai
 def test_no_file_imports_itself_in_a_circle() -> None:
     names = {module_name(path) for path in FILES}
     graph = {
-        module_name(path): {found.module for found in imports_of(path) if found.at_start} & names
-        for path in FILES
+        module_name(path): {found.module for found in imports_of(path) if found.at_start} & names for path in FILES
     }
     graphlib.TopologicalSorter(graph).prepare()
 
@@ -130,9 +127,7 @@ def test_private_viser_names_stay_in_the_adapter() -> None:
     reaches = {
         str(path.relative_to(ROOT)): lines
         for path in FILES
-        if layer_of(module_name(path)) == "ui"
-        and path != ADAPTER
-        and (lines := private_reaches(path.read_text()))
+        if layer_of(module_name(path)) == "ui" and path != ADAPTER and (lines := private_reaches(path.read_text()))
     }
     assert reaches == {}
 

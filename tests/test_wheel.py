@@ -57,9 +57,7 @@ def environment(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
         wheel,
         cwd=folder,
     )
-    purelib = Path(
-        run(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", cwd=folder).strip()
-    )
+    purelib = Path(run(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", cwd=folder).strip())
     libraries = {sysconfig.get_path("purelib"), sysconfig.get_path("platlib")}
     (purelib / "libraries.pth").write_text("\n".join(sorted(libraries)))
     return folder

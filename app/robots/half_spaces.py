@@ -49,7 +49,9 @@ def _enter(
     normal = spaces[entering].normal
     while True:
         shares = _combination([spaces[k].normal for k in active], normal)
-        free = [n - sum(s * spaces[k].normal[i] for s, k in zip(shares, active, strict=True)) for i, n in enumerate(normal)]
+        free = [
+            n - sum(s * spaces[k].normal[i] for s, k in zip(shares, active, strict=True)) for i, n in enumerate(normal)
+        ]
         rise = _dot(free, normal)
         full = -spaces[entering].slack(x) / rise if rise > 1e-10 else math.inf
         ratios = {k: multipliers[k] / s for s, k in zip(shares, active, strict=True) if s > 1e-12}

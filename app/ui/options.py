@@ -55,6 +55,8 @@ class ServeOptions:
     """Robot that a new visitor sees first."""
     open_browser: Annotated[bool, tyro.conf.arg(name="browser")] = True
     """Open the page in this computer's browser."""
+    shadows: bool = True
+    """Draw shadows; without them a computer that has no graphics processor is twice as quick."""
     allowed_hosts: Annotated[
         tuple[str, ...], tyro.conf.arg(name="allow-host", metavar="NAME"), tyro.conf.UseAppendAction
     ] = ()

@@ -1,4 +1,4 @@
-"""Drawings over the robot: the loop of one leg as vectors, coordinate frames, and the trace of the tool."""
+"""Drawings over the robot: the loop of one leg, coordinate frames, and the trace of the tool."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 import viser
 
 from app.ui import theme
+from app.ui.loop_vectors import LoopVectors
 from app.ui.pacing import Paced
 from app.ui.session import Session
 
@@ -49,9 +50,7 @@ class Overlay:
         if self._vectors is not None:
             self._vectors.remove()
             self._vectors = None
-        if view.vectors_leg is not None and view.vectors_leg < len(
-            self._session.robot.skeleton(*_now(self._session)).base
-        ):
+        if view.vectors_leg is not None and view.vectors_leg < self._session.robot.legs:
             self._vectors = LoopVectors(self._scene, view.vectors_leg)
         self._trace.clear()
         self._refresh()
@@ -86,51 +85,3 @@ class Overlay:
             )
         else:
             self._trace_lines.points = segments
-
-
-class LoopVectors:
-    """The closed chain of one leg as in the papers:  B + A + l = P + D."""
-
-    NAMES = ("B", "A", "l", "P", "D")
-
-    def __init__(self, scene: viser.SceneApi, leg: int) -> None:
-        self._leg = leg
-        self._scene = scene
-        self._arrows: viser.ArrowsHandle | None = None
-        self._labels: list[viser.LabelHandle] = []
-
-    def show(self, session: Session) -> None:
-        skeleton = session.robot.skeleton(*_now(session))
-        base, elbow, platform = (points[self._leg] for points in skeleton[:3])
-        origin, tool = np.zeros(3), np.array(session.stance.pose[:3])
-        chain = np.array([(origin, base), (base, elbow), (elbow, platform), (origin, tool), (tool, platform)])
-        chain = chain.astype(np.float32)
-        if self._arrows is None:
-            self._create(chain)
-            return
-        self._arrows.points = chain
-        for label, (start, end) in zip(self._labels, chain, strict=True):
-            label.position = 0.5 * (start + end)
-
-    def _create(self, chain: np.ndarray) -> None:
-        colors = np.array([theme.leg_color(self._leg)] * 3 + [theme.VECTOR] * 2, dtype=np.uint8)
-        self._arrows = self._scene.add_arrows(
-            "/robot/vectors", chain, colors, shaft_radius=0.0025, head_radius=0.006, head_length=0.018
-        )
-        number = "₁₂₃₄"[self._leg]
-        for name, (start, end) in zip(self.NAMES, chain, strict=True):
-            text = name if name == "P" else f"{name}{number}"
-            self._labels.append(
-                self._scene.add_label(
-                    f"/robot/vector_{name}", text, position=0.5 * (start + end), font_screen_scale=1.1
-                )
-            )
-
-    def remove(self) -> None:
-        for handle in (self._arrows, *self._labels):
-            if handle is not None:
-                handle.remove()
-
-
-def _now(session: Session) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    return session.stance.pose, session.stance.joints

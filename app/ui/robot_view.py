@@ -17,6 +17,8 @@ from app.ui.shape_cache import ShapeCache
 from app.ui.state import Stance
 from app.ui.viser_adapter import NodeStream
 
+SEE_THROUGH = 0.35
+
 PARENTS = {"base": "/robot", "tool": "/robot/tool"}
 """Scene node that carries the bodies of each frame."""
 
@@ -43,6 +45,7 @@ class RobotView:
         self._tool = client.scene.add_frame("/robot/tool", show_axes=False)
         session.robot_changed.connect(self._rebuild)
         session.stance_changed.connect(self.show)
+        session.view_changed.connect(lambda _: self._see_through())
         self._rebuild(session.robot)
 
     def _rebuild(self, robot: Robot) -> None:
@@ -80,7 +83,15 @@ class RobotView:
                 self._nodes[path] = node
         for node in old.values():
             node.handle.remove()
+        self._see_through()
         self.show(self._session.stance)
+
+    def _see_through(self) -> None:
+        """Vectors run inside the parts, so these turn translucent while vectors are shown."""
+        opacity = None if self._session.view.vectors_leg is None else SEE_THROUGH
+        for node in self._nodes.values():
+            if node.handle.opacity != opacity:
+                node.handle.opacity = opacity
 
     def show(self, stance: Stance) -> None:
         """Move every part to where the kinematics says; one message a part, sent together."""
@@ -112,6 +123,7 @@ class PartNode:
             batched_wxyzs=place.wxyzs,
             batched_colors=self._colors(None),
             lod="off",
+            cast_shadow=part.casts_shadow,
         )
 
     def place(self, stream: NodeStream, place: Placement) -> None:

@@ -18,7 +18,7 @@ from app.ui.options import ServeOptions
 from app.ui.room import Room
 from app.ui.shape_cache import ShapeCache
 from app.ui.stage import light_the_room
-from app.ui.state import Memory
+from app.ui.state import Memory, ViewOptions
 from app.ui.viser_adapter import browser_id, start_server, stop_server
 from app.ui.workspace_view import WorkspaceCache
 
@@ -38,6 +38,7 @@ class Lab:
         self._shapes.learn(build_robot(options.robot, {}))
         self._spaces = WorkspaceCache()
         self._memories: OrderedDict[str, Memory] = OrderedDict()
+        self._fresh = Memory(options.robot, view=ViewOptions(shadows=options.shadows))
         self.rooms: dict[int, Room] = {}
         self.server = start_server(options.host, options.port, Guard(allowed_hosts=options.allowed_hosts))
         light_the_room(self.server)
@@ -64,7 +65,7 @@ class Lab:
             self._shapes.learn(build_robot(name, {}))
 
     async def _welcome(self, client: viser.ClientHandle) -> None:
-        memory = self._memories.get(browser_id(client)) or Memory(self._options.robot)
+        memory = self._memories.get(browser_id(client)) or self._fresh
         room = Room(client, memory, self._pool, self._shapes, self._spaces)
         self.rooms[client.client_id] = room
         await room.furnish()
@@ -82,10 +83,10 @@ class Lab:
 
 def serve(options: ServeOptions) -> None:
     """Serve until interrupted."""
-    lab = Lab(options)
     stop = threading.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.set())
+    lab = Lab(options)
     print(f"Delta Lab is running at {lab.url} (Ctrl-C stops it)", flush=True)
     if options.open_browser:
         webbrowser.open(lab.url)

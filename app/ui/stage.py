@@ -11,6 +11,7 @@ from app.robots import Robot
 from app.robots.parts import machine_of
 from app.ui import theme
 from app.ui.session import Session
+from app.ui.state import ViewOptions
 
 View = Literal["3-D", "Front", "Side", "Top"]
 
@@ -39,11 +40,12 @@ DIRECTIONS: dict[View, tuple[float, float, float]] = {
 
 
 def light_the_room(server: viser.ViserServer) -> None:
-    """Lights shared by everyone: soft light from all sides, one lamp that throws shadows."""
-    server.scene.configure_default_lights(enabled=False)
-    server.scene.configure_environment_map("studio", environment_intensity=0.16)
-    server.scene.add_light_directional("/light/lamp", intensity=0.75, cast_shadow=True, position=(0.7, -0.9, 1.6))
-    server.scene.add_light_directional("/light/fill", intensity=0.12, position=(-1.0, 0.4, 0.5))
+    """Lights shared by everyone, beside viser's key light: soft light from the sky, and some from one side."""
+    server.scene.configure_environment_map(None)
+    server.scene.add_light_hemisphere(
+        "/light/sky", sky_color=(255, 255, 255), ground_color=(150, 150, 158), intensity=1.1
+    )
+    server.scene.add_light_directional("/light/side", intensity=0.9, position=(1.0, -0.5, 0.5))
 
 
 class Stage:
@@ -53,9 +55,11 @@ class Stage:
         self._client = client
         self._session = session
         self._dark = session.view.dark
+        self._shadows: bool | None = None
         session.robot_changed.connect(lambda _: self._lay_floor())
-        session.view_changed.connect(lambda view: self._set_theme(view.dark))
+        session.view_changed.connect(self._follow)
         self._apply_theme()
+        self._follow(session.view)
         client.gui.add_html(SHEET_STYLE)
         self.look("3-D")
 
@@ -74,10 +78,13 @@ class Stage:
         camera.position = focus + direction * distance
         camera.look_at = focus
 
-    def _set_theme(self, dark: bool) -> None:
-        if dark != self._dark:
-            self._dark = dark
+    def _follow(self, view: ViewOptions) -> None:
+        if view.dark != self._dark:
+            self._dark = view.dark
             self._apply_theme()
+        if view.shadows != self._shadows:
+            self._shadows = view.shadows
+            self._client.scene.configure_default_lights(enabled=True, cast_shadow=view.shadows)
 
     def _apply_theme(self) -> None:
         self._client.gui.configure_theme(dark_mode=self._dark, show_logo=False, show_share_button=False)
@@ -108,8 +115,10 @@ class Stage:
 
 def _extent(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
     """Corners of a box around the machine and its floor."""
-    skeleton = robot.skeleton(robot.home.tolist(), robot.solve(*robot.home.tolist()))
+    machine, home = machine_of(robot), robot.home.tolist()
+    skeleton = robot.skeleton(home, robot.solve(*home))
     points = np.vstack([*skeleton[:3], robot.home[None, :3]])
     low, high = points.min(axis=0), points.max(axis=0)
-    low[2] = min(low[2], machine_of(robot).floor)
+    low[2] = min(low[2], machine.floor)
+    high[2] += 2.0 * machine.lift
     return low - 0.05, high + 0.1

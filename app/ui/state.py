@@ -58,6 +58,8 @@ class ViewOptions:
     assemblies: bool = False
     """Ghosts of the other assembly modes."""
     dark: bool = False
+    shadows: bool = True
+    """Shadows cost a computer without a graphics processor half of its frames."""
 
 
 @dataclass(frozen=True)

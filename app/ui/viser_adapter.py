@@ -238,7 +238,15 @@ class _GuardedServer(infra.WebsockServer):
         self, handle: Any, _host: str, _port: int, *, process_request: Any, **options: Any
     ) -> AsyncIterator[Server]:
         """In place of `websockets.serve`; the listening socket is already there."""
-        async with self._guarded_serve(handle, process_request, **options) as server:
+
+        async def handle_own(websocket: ServerConnection) -> None:
+            # viser would print a line; the page shows the reason.
+            if websocket.subprotocol == f"viser-v{viser.__version__}":
+                await handle(websocket)
+            else:
+                await websocket.close(CloseCode.PROTOCOL_ERROR, "Reload the page: the server is another version")
+
+        async with self._guarded_serve(handle_own, process_request, **options) as server:
             yield server
         for task in self._handling:
             task.cancel()

@@ -138,9 +138,7 @@ def main() -> None:
     if options.json:
         print(json.dumps(rows, indent=2))
         return
-    print(
-        "| robot | ns / pose | plain loop / ours | NumPy as printed / ours | drag path us | one-pose array / that |"
-    )
+    print("| robot | ns / pose | plain loop / ours | NumPy as printed / ours | drag path us | one-pose array / that |")
     print("|---|---|---|---|---|---|")
     for row in rows:
         print(

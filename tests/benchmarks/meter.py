@@ -30,8 +30,7 @@ class Meter:
     def read(self) -> Load:
         elapsed = time.perf_counter() - self._since
         server, bench, machine = (
-            100 * (now - before) / elapsed
-            for now, before in zip(self._seconds_used(), self._before, strict=True)
+            100 * (now - before) / elapsed for now, before in zip(self._seconds_used(), self._before, strict=True)
         )
         memory = self._server.memory_info().rss / 1e6
         return Load(server, bench, max(0.0, machine - server - bench), memory)

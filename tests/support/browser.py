@@ -111,7 +111,7 @@ def wait_ready(page: Page, nodes: Sequence[str] = (), timeout: float = READY_TIM
     page.wait_for_function(_READY, arg=list(nodes), timeout=1e3 * timeout)
 
 
-def wait_until(page: Page, condition: Callable[[], Any], what: str, timeout: float = 10.0) -> Any:
+def wait_until(page: Page, condition: Callable[[], Any], what: str, timeout: float = 30.0) -> Any:
     """Poll `condition` until it is true, keeping the page alive meanwhile; returns its value."""
     for _ in range(math.ceil(timeout / 0.05)):
         if value := condition():
@@ -164,9 +164,7 @@ def turn_gizmo(page: Page, name: str, degrees: float, *, touch: bool = False, st
     wait_ready(page, [name])
     radius = RING * gizmo_scale(page, name)
     angles = [math.radians(45 + degrees * k / steps) for k in range(steps + 1)]
-    _drag(
-        page, [project(page, name, [radius * math.cos(a), radius * math.sin(a), 0.0]) for a in angles], touch
-    )
+    _drag(page, [project(page, name, [radius * math.cos(a), radius * math.sin(a), 0.0]) for a in angles], touch)
 
 
 def gizmo_scale(page: Page, name: str) -> float:

@@ -85,9 +85,7 @@ class RunningServer:
         deadline = self._started_at + START_TIMEOUT
         while time.perf_counter() < deadline:
             if self.process.poll() is not None:
-                raise AssertionError(
-                    f"the server ended with status {self.process.returncode}:\n{self.output()}"
-                )
+                raise AssertionError(f"the server ended with status {self.process.returncode}:\n{self.output()}")
             try:
                 status, _ = get(f"{self.url}/healthz")
             except (OSError, http.client.HTTPException):

@@ -47,12 +47,7 @@ def choose(page: Page, label: str, option: str) -> None:
 
 def slider_box(page: Page, label: str) -> Locator:
     """The number beside a slider."""
-    return (
-        _slider(page, label)
-        .locator("xpath=..")
-        .locator("input.mantine-NumberInput-input, input[inputmode]")
-        .last
-    )
+    return _slider(page, label).locator("xpath=..").locator("input.mantine-NumberInput-input, input[inputmode]").last
 
 
 def slider_thumb(page: Page, label: str) -> Locator:

@@ -107,6 +107,18 @@ def test_stopping_ends_connections_callbacks_and_threads(
     assert [record.getMessage() for record in caplog.records if record.levelno >= logging.WARNING] == []
 
 
+def test_a_page_of_another_version_is_told_to_reload(lab: SmallLab, capfd: pytest.CaptureFixture[str]) -> None:
+    async def scene() -> None:
+        async with wire_client(lab.url, greet=False, version="1.0.0") as client:
+            await eventually(lambda: client.closed_because, "close")
+            assert "1002" in (client.closed_because or "")
+            assert "Reload the page" in (client.closed_because or "")
+
+    run_async(scene())
+    assert lab.server.get_clients() == {}
+    assert capfd.readouterr() == ("", "")
+
+
 def test_a_browser_is_known_by_its_cookie(lab: SmallLab) -> None:
     identity = new_browser_id()
     ids: list[str] = []

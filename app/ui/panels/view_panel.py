@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import get_args
+from typing import cast, get_args
 
 import viser
 
 from app.ui.overlay import Overlay
 from app.ui.panels.units import GREEK
 from app.ui.session import Session
-from app.ui.stage import DIRECTIONS, Stage
+from app.ui.stage import DIRECTIONS, Stage, View
 from app.ui.state import ViewOptions, WorkspaceStyle
 
 NO_LEG = "None"
@@ -35,6 +35,7 @@ class ViewPanel:
             self._add_switch("elbows", "Other elbow solutions")
             self._add_switch("assemblies", "Other assembly modes")
         self._add_switch("dark", "Dark theme")
+        self._add_switch("shadows", "Shadows")
         self._add_reset(stage, overlay)
         session.robot_changed.connect(lambda _: self._follow_robot())
         session.view_changed.connect(lambda _: self._follow_view())
@@ -45,7 +46,7 @@ class ViewPanel:
 
         @views.on_click
         async def _(_: object) -> None:
-            stage.look(views.value)
+            stage.look(cast(View, views.value))
 
     def _add_workspace_style(self) -> None:
         self._style = self._gui.add_dropdown(
@@ -83,7 +84,7 @@ class ViewPanel:
 
         @reset.on_click
         async def _(_: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
-            defaults = ViewOptions(dark=self._session.view.dark)
+            defaults = ViewOptions(dark=self._session.view.dark, shadows=self._session.view.shadows)
             self._session.show(**{name: getattr(defaults, name) for name in vars(defaults)})
             stage.look("3-D")
 
