@@ -27,6 +27,8 @@ class Gizmo:
         self._client = client
         self._session = session
         self._stream = stream
+        self._turn = 0.0
+        """At which the ring was last shown, rad."""
         self._dragged: viser.TransformControlsHandle | None = None
         self._arrows: viser.TransformControlsHandle | None = None
         self._ring: viser.TransformControlsHandle | None = None
@@ -40,6 +42,7 @@ class Gizmo:
             if handle is not None:
                 handle.remove()
         self._dragged = self._ring = None
+        self._turn = 0.0
         size = GIZMO_SIZE_M
         scene, position = self._client.scene, self._session.stance.position
         self._arrows = scene.add_transform_controls(
@@ -58,10 +61,10 @@ class Gizmo:
             disable_sliders=True,
             depth_test=False,
             position=position,
-            wxyz=_about_z(self._session.stance.pose[3]),
         )
         self._ring.on_update(self._on_ring)
         silence_gizmo_echo(self._ring)
+        self.follow(self._session.stance)
 
     def follow(self, stance: Stance) -> None:
         """Keep the handles at the tool, except the one in hand."""
@@ -69,8 +72,9 @@ class Gizmo:
         for handle in (self._arrows, self._ring):
             if handle is None or handle is self._dragged:
                 continue
-            rotation = _about_z(stance.wish[3]) if handle is self._ring else None
-            self._stream.move(handle, position, rotation)
+            turn = stance.wish[3] if handle is self._ring else self._turn
+            self._stream.move(handle, position, None if turn == self._turn else _about_z(turn))
+            self._turn = turn
 
     async def _on_arrows(self, event: viser.TransformControlsEvent) -> None:
         self._on_phase(event)

@@ -42,6 +42,7 @@ class RobotView:
         self._nodes: dict[str, PartNode] = {}
         self._robot: Robot | None = None
         self._machine: Machine | None = None
+        self._tool_rotation: tuple[float, ...] | None = None
         self._tool = client.scene.add_frame("/robot/tool", show_axes=False)
         session.robot_changed.connect(self._rebuild)
         session.stance_changed.connect(self.show)
@@ -102,7 +103,9 @@ class RobotView:
             if node.body.fixed is None:
                 node.place(self._stream, placements[node.body.name])
             node.warn(self._stream, stance.blocked_leg)
-        self._stream.move(self._tool, *self._machine.tool_frame(stance.pose))
+        position, rotation = self._machine.tool_frame(stance.pose)
+        self._stream.move(self._tool, position, None if rotation == self._tool_rotation else rotation)
+        self._tool_rotation = rotation
 
 
 class PartNode:

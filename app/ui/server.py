@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import multiprocessing
 import signal
 import threading
@@ -63,6 +64,9 @@ class Lab:
         self._pool.submit(warm_up)
         for name in ROBOTS:
             self._shapes.learn(build_robot(name, {}))
+        # What the start has made stays: the garbage collector need not walk through it during drags.
+        gc.collect()
+        gc.freeze()
 
     async def _welcome(self, client: viser.ClientHandle) -> None:
         memory = self._memories.get(browser_id(client)) or self._fresh

@@ -16,7 +16,7 @@ from collections.abc import AsyncGenerator, AsyncIterator, Callable, Iterable, I
 from contextlib import AbstractAsyncContextManager, asynccontextmanager, contextmanager
 from functools import partial
 from types import FunctionType, SimpleNamespace
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -38,6 +38,7 @@ from app.ui.listener import PortTaken as PortTaken
 from app.ui.listener import cookies, listen, serve_guarded
 from app.ui.uploads import UploadLedger
 
+Value = TypeVar("Value")
 Peer: TypeAlias = infra.WebsockClientConnection
 
 
@@ -78,6 +79,14 @@ def browser_id(client: viser.ClientHandle) -> str:
 def run_javascript(client: viser.ClientHandle, source: str) -> None:
     """Run a script on the client's page."""
     client._websock_connection.queue_message(_messages.RunJavascriptMessage(source=source))
+
+
+def show_value(element: viser.GuiInputHandle[Value], value: Value) -> None:
+    """Show a value in an input without calling its listeners, who would only hear what they said."""
+    state = element._impl
+    if state.value != value:
+        state.value = value
+        state.gui_api._websock_interface.queue_message(_messages.GuiUpdateMessage(state.uuid, {"value": value}))
 
 
 def silence_gizmo_echo(gizmo: viser.TransformControlsHandle) -> None:

@@ -10,6 +10,7 @@ from app.robots import ROBOTS, GeometryError
 from app.ui import theme
 from app.ui.panels.units import labelled, shown, si
 from app.ui.session import Session
+from app.ui.viser_adapter import show_value
 
 
 class GeometryPanel:
@@ -54,8 +55,7 @@ class GeometryPanel:
 
         @choice.on_update
         async def _(event: viser.GuiEvent[viser.GuiDropdownHandle[str]]) -> None:
-            if event.client is not None:
-                self._session.choose_preset(event.target.value)
+            self._session.choose_preset(event.target.value)
 
     def _add_slider(self, name: str) -> viser.GuiSliderHandle[float]:
         dimension = self._session.robot.geometry.dimensions()[name]
@@ -65,8 +65,7 @@ class GeometryPanel:
 
         @slider.on_update
         async def _(event: viser.GuiEvent[viser.GuiSliderHandle[float]]) -> None:
-            if event.client is not None:
-                self._change(name, si(event.target.value, "m"))
+            self._change(name, si(event.target.value, "m"))
 
         return slider
 
@@ -85,4 +84,4 @@ class GeometryPanel:
             return
         self._refusal.content = ""
         for name, slider in self._sliders.items():
-            slider.value = shown(getattr(self._session.robot.geometry, name), "m")
+            show_value(slider, shown(getattr(self._session.robot.geometry, name), "m"))

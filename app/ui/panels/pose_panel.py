@@ -9,8 +9,9 @@ import viser
 from app.ui.pacing import Paced
 from app.ui.panels.units import labelled, shown, si
 from app.ui.session import Session
+from app.ui.viser_adapter import show_value
 
-REFRESH_S = 0.1
+REFRESH_S = 0.15
 SETTLE_S = 0.3
 """A slider in hand is left alone; this long after its last move it shows the joint's true value again."""
 
@@ -52,11 +53,10 @@ class PosePanel:
 
         @field.on_update
         async def _(event: viser.GuiEvent[viser.GuiNumberHandle[float]]) -> None:
-            if event.client is not None:
-                pose = list(self._session.stance.pose)
-                pose[index] = si(event.target.value, unit)
-                self._session.go(pose)
-                self._settle()
+            pose = list(self._session.stance.pose)
+            pose[index] = si(event.target.value, unit)
+            self._session.go(pose)
+            self._settle()
 
         return field
 
@@ -67,10 +67,9 @@ class PosePanel:
 
         @slider.on_update
         async def _(event: viser.GuiEvent[viser.GuiSliderHandle[float]]) -> None:
-            if event.client is not None:
-                self._held = index
-                self._session.set_joint(index, si(event.target.value, unit))
-                self._settle()
+            self._held = index
+            self._session.set_joint(index, si(event.target.value, unit))
+            self._settle()
 
         return slider
 
@@ -86,11 +85,11 @@ class PosePanel:
     def _refresh(self) -> None:
         stance, robot = self._session.stance, self._session.robot
         for index, field in enumerate(self._fields):
-            field.value = shown(stance.pose[index], _pose_unit(index))
+            show_value(field, shown(stance.pose[index], _pose_unit(index)))
         for index, slider in enumerate(self._sliders):
             if index != self._held:
                 value = shown(stance.joints[index], robot.joint_units[index])
-                slider.value = min(max(value, slider.min), slider.max)
+                show_value(slider, min(max(value, slider.min), slider.max))
 
 
 def _pose_unit(index: int) -> str:

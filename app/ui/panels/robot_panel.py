@@ -20,8 +20,7 @@ class RobotPanel:
 
         @choice.on_update
         async def _(event: viser.GuiEvent[viser.GuiDropdownHandle[str]]) -> None:
-            if event.client is not None:
-                session.choose_robot(titles[event.target.value])
+            session.choose_robot(titles[event.target.value])
 
         self._status = StatusPanel(gui, session)
         home = gui.add_button("Home", icon=viser.Icon.HOME, hint="Back to the pose in the middle of its reach")

@@ -12,7 +12,7 @@ from app.ui.pacing import Paced
 from app.ui.panels.units import SHOWN_UNIT, shown
 from app.ui.session import Session
 
-REFRESH_S = 0.2
+REFRESH_S = 0.25
 
 
 class StatusPanel:

@@ -12,6 +12,7 @@ from app.ui.panels.units import GREEK
 from app.ui.session import Session
 from app.ui.stage import DIRECTIONS, Stage, View
 from app.ui.state import ViewOptions, WorkspaceStyle
+from app.ui.viser_adapter import show_value
 
 NO_LEG = "None"
 
@@ -55,8 +56,7 @@ class ViewPanel:
 
         @self._style.on_update
         async def _(event: viser.GuiEvent[viser.GuiDropdownHandle[str]]) -> None:
-            if event.client is not None:
-                self._session.show(workspace=event.target.value)
+            self._session.show(workspace=event.target.value)
 
         self._gui.add_html(
             '<div style="padding:0 12px;font-size:0.8em;opacity:0.8"><div style="height:8px;border-radius:4px;'
@@ -71,8 +71,7 @@ class ViewPanel:
 
         @switch.on_update
         async def _(event: viser.GuiEvent[viser.GuiCheckboxHandle]) -> None:
-            if event.client is not None:
-                self._session.show(**{option: event.target.value})
+            self._session.show(**{option: event.target.value})
 
     def _add_reset(self, stage: Stage, overlay: Overlay) -> None:
         clear = self._gui.add_button("Clear trace", icon=viser.Icon.ERASER)
@@ -106,8 +105,7 @@ class ViewPanel:
 
         @self._angle.on_update
         async def _(event: viser.GuiEvent[viser.GuiSliderHandle[float]]) -> None:
-            if event.client is not None:
-                self._session.show(workspace_angle=math.radians(event.target.value))
+            self._session.show(workspace_angle=math.radians(event.target.value))
 
     def _add_leg(self, legs: int) -> None:
         options = (NO_LEG, *(f"Leg {i + 1}" for i in range(legs)))
@@ -117,16 +115,15 @@ class ViewPanel:
 
         @self._leg.on_update
         async def _(event: viser.GuiEvent[viser.GuiDropdownHandle[str]]) -> None:
-            if event.client is not None:
-                index = options.index(event.target.value)
-                self._session.show(vectors_leg=index - 1 if index else None)
+            index = options.index(event.target.value)
+            self._session.show(vectors_leg=index - 1 if index else None)
 
     def _follow_view(self) -> None:
         view = self._session.view
-        self._style.value = view.workspace
+        show_value(self._style, view.workspace)
         for option, switch in self._switches.items():
-            switch.value = getattr(view, option)
+            show_value(switch, getattr(view, option))
         if self._angle is not None:
-            self._angle.value = float(round(math.degrees(view.workspace_angle)))
+            show_value(self._angle, float(round(math.degrees(view.workspace_angle))))
         if self._leg is not None:
-            self._leg.value = NO_LEG if view.vectors_leg is None else f"Leg {view.vectors_leg + 1}"
+            show_value(self._leg, NO_LEG if view.vectors_leg is None else f"Leg {view.vectors_leg + 1}")
