@@ -55,10 +55,13 @@ class Ghosts:
             return
         placements = [self._machine.place(*ghost) for ghost in ghosts]
         for body in self._machine.bodies:
-            if body.fixed is None:
-                place = _together([placement[body.name] for placement in placements])
+            if body.fixed is None or body.frame == "tool":
+                copies = [
+                    in_base_frame(self._machine, body, pose, placement.get(body.name))
+                    for (pose, _), placement in zip(ghosts, placements, strict=True)
+                ]
                 for part in body.parts:
-                    self._show(body, part, place, len(ghosts))
+                    self._show(body, part, _together(copies), len(ghosts))
 
     def _show(self, body: Body, part: Part, place: Placement, ghosts: int) -> None:
         node = self._nodes.get(part.name)
@@ -97,6 +100,16 @@ def configurations(session: Session) -> list[Configuration]:
         modes = robot.assemblies(stance.joints)
         ghosts += [(mode.pose.tolist(), stance.joints) for mode in modes if not mode.valid]
     return ghosts
+
+
+def in_base_frame(machine: Machine, body: Body, pose: Sequence[float], place: Placement | None) -> Placement:
+    """Where a body of a robot in some pose is. Bodies in the tool's frame stand in its origin."""
+    if place is None:
+        position, rotation = machine.tool_frame(pose)
+        return Placement(np.array([position], dtype=np.float32), np.array([rotation], dtype=np.float32))
+    if body.frame == "platform":
+        return Placement(place.positions + np.array(pose[:3], dtype=np.float32), place.wxyzs)
+    return place
 
 
 def _together(placements: list[Placement]) -> Placement:

@@ -21,7 +21,7 @@ RING_SIZE = 1.4
 
 
 class Gizmo:
-    """`/robot/gizmo` and, for a robot with a rotation, `/robot/turn`."""
+    """`/robot/gizmo` and, for a robot with a rotation, the ring `/robot/platform/turn`, which rides along."""
 
     def __init__(self, client: viser.ClientHandle, session: Session, stream: NodeStream) -> None:
         self._client = client
@@ -53,14 +53,13 @@ class Gizmo:
         if self._session.robot.rotation_name is None:
             return
         self._ring = scene.add_transform_controls(
-            "/robot/turn",
+            "/robot/platform/turn",
             size * RING_SIZE,
             line_width=4.0,
             active_axes=(True, True, False),
             disable_axes=True,
             disable_sliders=True,
             depth_test=False,
-            position=position,
         )
         self._ring.on_update(self._on_ring)
         silence_gizmo_echo(self._ring)
@@ -68,13 +67,13 @@ class Gizmo:
 
     def follow(self, stance: Stance) -> None:
         """Keep the handles at the tool, except the one in hand."""
-        position = stance.wished_position
-        for handle in (self._arrows, self._ring):
-            if handle is None or handle is self._dragged:
-                continue
-            turn = stance.wish[3] if handle is self._ring else self._turn
-            self._stream.move(handle, position, None if turn == self._turn else _about_z(turn))
-            self._turn = turn
+        if self._arrows is not None and self._arrows is not self._dragged:
+            self._stream.move(self._arrows, stance.wished_position)
+        if self._ring is None or self._ring is self._dragged or len(stance.wish) < 4:
+            return
+        if stance.wish[3] != self._turn:
+            self._turn = stance.wish[3]
+            self._stream.move(self._ring, (0.0, 0.0, 0.0), _about_z(self._turn))
 
     async def _on_arrows(self, event: viser.TransformControlsEvent) -> None:
         self._on_phase(event)

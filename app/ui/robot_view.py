@@ -19,7 +19,7 @@ from app.ui.viser_adapter import NodeStream
 
 SEE_THROUGH = 0.35
 
-PARENTS = {"base": "/robot", "tool": "/robot/tool"}
+PARENTS = {"base": "/robot", "platform": "/robot/platform", "tool": "/robot/tool"}
 """Scene node that carries the bodies of each frame."""
 
 
@@ -43,7 +43,8 @@ class RobotView:
         self._robot: Robot | None = None
         self._machine: Machine | None = None
         self._tool_rotation: tuple[float, ...] | None = None
-        self._tool = client.scene.add_frame("/robot/tool", show_axes=False)
+        self._platform = client.scene.add_frame(PARENTS["platform"], show_axes=False)
+        self._tool = client.scene.add_frame(PARENTS["tool"], show_axes=False)
         session.robot_changed.connect(self._rebuild)
         session.stance_changed.connect(self.show)
         session.view_changed.connect(lambda _: self._see_through())
@@ -104,6 +105,7 @@ class RobotView:
                 node.place(self._stream, placements[node.body.name])
             node.warn(self._stream, stance.blocked_leg)
         position, rotation = self._machine.tool_frame(stance.pose)
+        self._stream.move(self._platform, position)
         self._stream.move(self._tool, position, None if rotation == self._tool_rotation else rotation)
         self._tool_rotation = rotation
 

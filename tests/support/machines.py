@@ -70,8 +70,15 @@ def on_tool(machine: Machine, pose: NDArray[np.float64], point: ArrayLike) -> ND
 
 
 def placed(robot: Robot, machine: Machine, pose: NDArray[np.float64]) -> dict[str, Placement]:
+    """Every moving body in the base frame, added up in float32 as the page's scene graph has it."""
     values = pose.tolist()
-    return machine.place(values, robot.solve(*values))
+    placements = machine.place(values, robot.solve(*values))
+    origin = np.array(values[:3], dtype=np.float32)
+    riding = {body.name for body in machine.bodies if body.frame == "platform"}
+    return {
+        name: Placement(place.positions + origin, place.wxyzs) if name in riding else place
+        for name, place in placements.items()
+    }
 
 
 def close(one: ArrayLike, other: ArrayLike) -> bool:

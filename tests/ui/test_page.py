@@ -82,7 +82,7 @@ def test_a_drag_out_of_reach_says_which_limit_and_returns_the_gizmo(page: Page, 
 
 def test_the_ring_turns_the_platform_and_the_tool_twice_as_far(page: Page, server: RunningServer):
     visit_lab(page, server)
-    turn_gizmo(page, "/robot/turn", degrees=20)
+    turn_gizmo(page, "/robot/platform/turn", degrees=20)
     wait_until(page, lambda: abs(float(field(page, "θ (deg)").input_value())) > 5, "a turned platform")
     theta = math.radians(float(field(page, "θ (deg)").input_value()))
     pose = node_pose(page, TOOL)

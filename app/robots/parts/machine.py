@@ -31,7 +31,7 @@ class Machine(ABC):
 
     @abstractmethod
     def place(self, pose: Sequence[float], joints: Sequence[float]) -> dict[str, Placement]:
-        """Where every moving body is, by name, in the base frame.
+        """Where every moving body is, by name, in its own frame.
 
         Args:
             pose: (dof,) metres and radians.

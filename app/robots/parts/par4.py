@@ -39,7 +39,8 @@ class Par4Machine(Machine):
         self._rods = RodPairs(ARM_AZIMUTHS, HALF_SPACING)
         self._wheel_radius = min(0.015, 0.26 * g.d)
         self._bar_wxyzs = quaternions(about_z(math.pi) + IDENTITY)
-        self._upright = quaternions(IDENTITY)
+        self._belts = standing((0.0, 0.0, g.P_z))
+        self._platform_at: tuple[float, dict[str, Placement]] | None = None
         self.bodies = (*self._fixed_bodies(), *self._moving_bodies(), self._tool())
 
     def place(self, pose: Sequence[float], joints: Sequence[float]) -> dict[str, Placement]:
@@ -47,8 +48,7 @@ class Par4Machine(Machine):
         x, y, z, theta = pose
         top = z + g.P_z
         x12, y12 = x - g.h * math.sin(theta), y + g.h * math.cos(theta)
-        half, turn = 0.5 * g.d, about_z(theta)
-        along, north, south = half + g.d_i, y12 + g.h_i, y - g.h_i
+        along, north, south = 0.5 * g.d + g.d_i, y12 + g.h_i, y - g.h_i
         corners = (
             (x12 + along, north, top),
             (x12 - along, north, top),
@@ -59,10 +59,22 @@ class Par4Machine(Machine):
         return {
             "arms": Placement(positions, turns),
             "rods": self._rods.place(elbows, corners),
-            "bars": Placement(vectors((x12, y12, top, x, y, top)), self._bar_wxyzs),
-            "links": rows((x + half, y, top, x - half, y, top), turn + turn),
-            "belts": Placement(vectors((x, y, top)), self._upright),
+            **self._platform(theta),
         }
+
+    def _platform(self, theta: float) -> dict[str, Placement]:
+        """Bars, links and belts around the tool point; the very same arrays as long as theta stays."""
+        if self._platform_at is None or self._platform_at[0] != theta:
+            g = self._geometry
+            top, half, turn = g.P_z, 0.5 * g.d, about_z(theta)
+            swing = (-g.h * math.sin(theta), g.h * math.cos(theta), top)
+            bodies = {
+                "bars": Placement(vectors((*swing, 0.0, 0.0, top)), self._bar_wxyzs),
+                "links": rows((half, 0.0, top, -half, 0.0, top), turn + turn),
+                "belts": self._belts,
+            }
+            self._platform_at = (theta, bodies)
+        return self._platform_at[1]
 
     def tool_frame(self, pose: Sequence[float]) -> tuple[tuple[float, float, float], Quaternion]:
         """The tool point D; the tool is turned by 2 theta."""
@@ -121,9 +133,9 @@ class Par4Machine(Machine):
                 ),
                 PAIRS,
             ),
-            Body("bars", (Part("bar", "aluminium", shapes.platform_bar, bar),), (None, None)),
-            Body("links", (Part("link", "steel", shapes.platform_link, (g.h, wheel)),), (None, None)),
-            Body("belts", (Part("belts", "rubber", shapes.belts, (g.d, wheel)),)),
+            Body("bars", (Part("bar", "aluminium", shapes.platform_bar, bar),), (None, None), "platform"),
+            Body("links", (Part("link", "steel", shapes.platform_link, (g.h, wheel)),), (None, None), "platform"),
+            Body("belts", (Part("belts", "rubber", shapes.belts, (g.d, wheel)),), frame="platform"),
         )
 
     def _tool(self) -> Body:

@@ -20,8 +20,12 @@ LEG = "leg"
 """The material of parts that are painted in the colour of the leg they belong to."""
 
 
+Frame = Literal["base", "platform", "tool"]
+"""`platform` has its origin at the pose's position and never turns; `tool` is there too and turns with the tool."""
+
+
 class Placement(NamedTuple):
-    """Where the copies of a body are, in the base frame (or in the tool's, for a body that rides on it)."""
+    """Where the copies of a body are, in the body's `Frame`."""
 
     positions: NDArray[np.float32]
     """(n, 3) metres."""
@@ -63,8 +67,9 @@ class Body:
     parts: tuple[Part, ...]
     legs: tuple[int | None, ...] = (None,)
     """One entry a copy: the leg it belongs to, counted from 0."""
-    frame: Literal["base", "tool"] = "base"
-    """`tool`: it is rigidly fixed to the tool frame and needs no update of its own."""
+    frame: Frame = "base"
+    """Where its placements are meant. A body that rests in the frame of the platform or the tool needs no
+    update of its own while that moves."""
     fixed: Placement | None = field(default=None, compare=False)
     """Where its copies stand in `frame`; None for a body that `Machine.place` places."""
 

@@ -11,8 +11,10 @@ from app.ui import theme
 from app.ui.pacing import Paced
 from app.ui.panels.units import SHOWN_UNIT, shown
 from app.ui.session import Session
+from app.ui.state import Stance
 
-REFRESH_S = 0.25
+REFRESH_S = 0.4
+"""For the numbers; a change of verdict shows at once."""
 
 
 class StatusPanel:
@@ -22,10 +24,18 @@ class StatusPanel:
         self._session = session
         self._html = gui.add_html(self._content())
         self._pace = Paced(self._refresh, REFRESH_S)
-        session.stance_changed.connect(lambda _: self._pace.request())
+        self._reason = session.stance.reach.reason
+        session.stance_changed.connect(self._follow)
 
     def close(self) -> None:
         self._pace.cancel()
+
+    def _follow(self, stance: Stance) -> None:
+        if stance.reach.reason != self._reason:
+            self._reason = stance.reach.reason
+            self._refresh()
+        else:
+            self._pace.request()
 
     def _refresh(self) -> None:
         self._html.content = self._content()
