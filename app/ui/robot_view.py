@@ -40,6 +40,8 @@ class RobotView:
         self._shapes = shapes
         self._worker = worker
         self._nodes: dict[str, PartNode] = {}
+        self._moving: list[PartNode] = []
+        self._blocked: int | None = None
         self._robot: Robot | None = None
         self._machine: Machine | None = None
         self._tool_rotation: tuple[float, ...] | None = None
@@ -85,8 +87,15 @@ class RobotView:
                 self._nodes[path] = node
         for node in old.values():
             node.handle.remove()
+        self._moving = [node for node in self._nodes.values() if node.body.fixed is None]
         self._see_through()
+        self._paint(self._session.stance.blocked_leg)
         self.show(self._session.stance)
+
+    def _paint(self, blocked: int | None) -> None:
+        self._blocked = blocked
+        for node in self._nodes.values():
+            node.warn(self._stream, blocked)
 
     def _see_through(self) -> None:
         """Vectors run inside the parts, so these turn translucent while vectors are shown."""
@@ -100,10 +109,10 @@ class RobotView:
         if self._machine is None or self._robot is not self._session.robot:
             return
         placements = self._machine.place(stance.pose, stance.joints)
-        for node in self._nodes.values():
-            if node.body.fixed is None:
-                node.place(self._stream, placements[node.body.name])
-            node.warn(self._stream, stance.blocked_leg)
+        for node in self._moving:
+            node.place(self._stream, placements[node.body.name])
+        if stance.blocked_leg != self._blocked:
+            self._paint(stance.blocked_leg)
         position, rotation = self._machine.tool_frame(stance.pose)
         self._stream.move(self._platform, position)
         self._stream.move(self._tool, position, None if rotation == self._tool_rotation else rotation)
@@ -120,7 +129,6 @@ class PartNode:
         self.part = part
         self._wxyzs = place.wxyzs
         self._positions = place.positions
-        self._blocked: int | None = None
         self.handle = scene.add_batched_meshes_simple(
             path,
             *arrays,
@@ -140,11 +148,8 @@ class PartNode:
 
     def warn(self, stream: NodeStream, leg: int | None) -> None:
         """Paint the copies that belong to the leg which stops the robot."""
-        if leg == self._blocked:
-            return
-        if {leg, self._blocked} & {other for other in self.body.legs if other is not None}:
+        if any(other is not None for other in self.body.legs):
             stream.place(self.handle, self._positions, colors=self._colors(leg))
-        self._blocked = leg
 
     def _colors(self, blocked: int | None) -> NDArray[np.uint8]:
         return np.array([self._color(leg, blocked) for leg in self.body.legs], dtype=np.uint8)

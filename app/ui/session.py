@@ -7,11 +7,10 @@ Everything runs on the server's event loop, so there are no locks.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Generic, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from app.robots import ROBOTS, Reach, Robot, build_robot
 from app.ui.state import Joints, Memory, Pose, Stance, ViewOptions
@@ -75,11 +74,11 @@ class Session:
         """
         self._rebuild({**self.dimensions, **dimensions})
 
-    def drag(self, position: ArrayLike | None = None, rotation: float | None = None) -> None:
+    def drag(self, position: Iterable[float] | None = None, rotation: float | None = None) -> None:
         """Follow the gizmo: its position (3,), its rotation about z, or both."""
         wish = list(self.stance.wish)
         if position is not None:
-            wish[:3] = np.clip(position, -FARTHEST_WISH_M, FARTHEST_WISH_M).tolist()
+            wish[:3] = [min(max(float(v), -FARTHEST_WISH_M), FARTHEST_WISH_M) for v in position]
         if rotation is not None and len(wish) == 4:
             wish[3] = float(rotation)
         self._stand(tuple(wish))

@@ -30,13 +30,13 @@ SHEET_STYLE = f"""<style>@media (max-width: {PHONE_WIDTH_PX - 1}px) {{
 }}</style>"""
 """viser's sheet is half as wide as a phone and covers more than half of its height."""
 
-DIRECTIONS: dict[View, tuple[float, float, float]] = {
-    "3-D": (0.55, -0.80, 0.28),
+DIRECTIONS: dict[View, tuple[float, float, float] | None] = {
+    "3-D": None,
     "Front": (0.0, -1.0, 0.02),
     "Side": (1.0, 0.0, 0.02),
     "Top": (0.0, -0.02, 1.0),
 }
-"""From what is looked at towards the eye."""
+"""From what is looked at towards the eye; each machine has its own for `3-D`."""
 
 
 def light_the_room(server: viser.ViserServer) -> None:
@@ -56,7 +56,8 @@ class Stage:
         self._session = session
         self._dark = session.view.dark
         self._shadows: bool | None = None
-        session.robot_changed.connect(lambda _: self._lay_floor())
+        self._robot_name = session.robot_name
+        session.robot_changed.connect(self._receive)
         session.view_changed.connect(self._follow)
         self._apply_theme()
         self._follow(session.view)
@@ -68,7 +69,8 @@ class Stage:
         camera = self._client.camera
         low, high = _extent(self._session.robot)
         focus, size = 0.5 * (low + high), float(np.linalg.norm(high - low))
-        direction = np.array(DIRECTIONS[view]) / np.linalg.norm(DIRECTIONS[view])
+        direction = np.array(DIRECTIONS[view] or machine_of(self._session.robot).seen_from)
+        direction /= np.linalg.norm(direction)
         aspect = camera.image_width / max(camera.image_height, 1)
         distance = 0.5 * size / np.tan(0.5 * FIELD_OF_VIEW) / min(1.0, max(aspect, 0.3))
         if camera.image_width < PHONE_WIDTH_PX:
@@ -77,6 +79,13 @@ class Stage:
         camera.up_direction = (0.0, 0.0, 1.0)
         camera.position = focus + direction * distance
         camera.look_at = focus
+
+    def _receive(self, robot: Robot) -> None:
+        """Another robot is looked at anew; the same one in other dimensions is not."""
+        self._lay_floor()
+        if robot.name != self._robot_name:
+            self._robot_name = robot.name
+            self.look("3-D")
 
     def _follow(self, view: ViewOptions) -> None:
         if view.dark != self._dark:

@@ -127,7 +127,8 @@ def test_a_changed_geometry_changes_the_machine(page: Page, server: RunningServe
     page.get_by_text("Geometry", exact=True).click()
     set_slider(page, "l (mm)", 450)
     longer = make_robot("par4", l=0.45)
-    joints = [math.degrees(q) for q in longer.solve(0.0, -0.036, -0.3, 0.0)]
+    stands = longer.nearest([0.0, -0.036, -0.3, 0.0]).tolist()
+    joints = [math.degrees(q) for q in longer.solve(*stands)]
     wait_until(
         page, lambda: abs(float(slider_box(page, "q1 (deg)").input_value()) - joints[0]) < 0.06, "joints of longer rods"
     )

@@ -29,6 +29,7 @@ class FiveBarMachine(Machine):
     def __init__(self, robot: FiveBar) -> None:
         g = self._geometry = robot.geometry
         self.lift = g.z_max + GRIPPER + 0.085
+        self.seen_from = (0.85, 0.30, 0.38)
         self.floor = g.z_min - 0.03
         self._motors = robot.linkage.motors
         self.bodies = (*self._fixed_bodies(), *self._moving_bodies(), self._tool())

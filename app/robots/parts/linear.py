@@ -31,6 +31,7 @@ class LinearMachine(Machine):
 
     def __init__(self, robot: LinearDelta) -> None:
         g = self._geometry = robot.geometry
+        self.seen_from = (0.14, -0.95, 0.26)
         self.floor = g.z_min + self.tool_tip - shapes.PLATE - FOOT_HEIGHT
         self._joints = ((-g.S_A / 2, -g.W_A), (g.S_A / 2, -g.W_A), (0.0, g.U_A))
         self._corners = ((-g.s_p / 2, -g.w_p), (g.s_p / 2, -g.w_p), (0.0, g.u_b))

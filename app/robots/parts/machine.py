@@ -19,6 +19,8 @@ class Machine(ABC):
     bodies: tuple[Body, ...]
     floor: float
     """Height of the floor under the machine, metres."""
+    seen_from: tuple[float, float, float] = (0.55, -0.80, 0.28)
+    """Direction towards an eye that sees the tool and its arms unhidden."""
     tool_tip: float = 0.0
     """Height of the drawn tool's tip above the pose's point; 0 where the tip is that point."""
     lift: float = 0.0

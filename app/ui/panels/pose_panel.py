@@ -12,6 +12,9 @@ from app.ui.session import Session
 from app.ui.viser_adapter import show_value
 
 REFRESH_S = 0.15
+STEP = 0.5
+"""Of a pose field, mm or degrees; viser shows as many decimals as the step has."""
+
 SETTLE_S = 0.3
 """A slider in hand is left alone; this long after its last move it shows the joint's true value again."""
 
@@ -49,7 +52,7 @@ class PosePanel:
 
     def _add_field(self, index: int, name: str, value: float) -> viser.GuiNumberHandle[float]:
         unit = _pose_unit(index)
-        field = self._gui.add_number(labelled(name, unit), shown(value, unit), step=1.0)
+        field = self._gui.add_number(labelled(name, unit), shown(value, unit), step=STEP)
 
         @field.on_update
         async def _(event: viser.GuiEvent[viser.GuiNumberHandle[float]]) -> None:
