@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from app.robots import par4_assembly
 from app.robots.geometry import Geometry, angle, length
+from app.robots.par4_platform import Par4Platform
 from app.robots.reach import Reach
 from app.robots.robot import LIMIT_TOLERANCE, Array, Assembly, condition_number
 from app.robots.rotary_delta import RotaryDelta
@@ -70,10 +71,14 @@ class Par4(RotaryDelta):
         super()._bind()
         self._R, self._L, self._l, self._B_z = g.R, g.L, g.l, g.B_z
         self._limits = ((g.q_min, g.q_max),) * 4
-        self._link_turns = (g.h, g.h, 0.0, 0.0)
         along = g.d / 2 + g.d_i
-        self._along = (along, -along, -along, along)
-        self._across = (g.h_i, g.h_i, -g.h_i, -g.h_i)
+        self.platform = Par4Platform(
+            along=(along, -along, -along, along),
+            across=(g.h_i, g.h_i, -g.h_i, -g.h_i),
+            links=(g.h, g.h, 0.0, 0.0),
+            height=g.P_z,
+            theta_max=g.theta_max,
+        )
 
     @property
     def rotation_limit(self) -> float:
@@ -87,29 +92,21 @@ class Par4(RotaryDelta):
         x, y, z, theta = pose
         s, c = m.sin(theta), m.cos(theta)
         u_z = z + (self.geometry.P_z - self._B_z)
-        legs = zip(self._along, self._across, self._link_turns, self._arms, strict=True)
+        platform = self.platform
+        legs = zip(platform.along, platform.across, platform.links, self._arms, strict=True)
         return [
-            (x - turn * s + (along - self._R * ca), y + turn * c + (across - self._R * sa), u_z)
-            for along, across, turn, (ca, sa) in legs
+            (x - link * s + (along - self._R * ca), y + link * c + (across - self._R * sa), u_z)
+            for along, across, link, (ca, sa) in legs
         ]
 
     def _platform_joints(self, pose: Array) -> Array:
-        s, c = np.sin(pose[..., 3, None]), np.cos(pose[..., 3, None])
-        turn, height = np.array(self._link_turns), np.full(4, self.geometry.P_z)
-        shift = np.stack(np.broadcast_arrays(self._along - turn * s, self._across + turn * c, height), axis=-1)
-        return pose[..., None, :3] + shift
+        return self.platform.joints(pose)
 
     def jacobian(self, pose: ArrayLike) -> Array:
         """J = Jq^-1 Jx with rows Jx_i = [l_i, l_i . dP_i/dtheta] and Jq_i = l_i . dA_i/dq_i."""
         poses = np.asarray(pose, dtype=float)
         rods, swing = self._rods_and_swing(poses)
-        return self.loop_rows(rods, poses[..., 3]) / swing[..., None]
-
-    def loop_rows(self, rods: Array, theta: Array) -> Array:
-        """Jx, (..., 4, 4), of rod vectors (..., 4, 3): how each loop opens with the pose."""
-        s, c = np.sin(theta)[..., None], np.cos(theta)[..., None]
-        spin = -np.array(self._link_turns) * (rods[..., 0] * c + rods[..., 1] * s)
-        return np.concatenate([rods, spin[..., None]], axis=-1)
+        return self.platform.loop_rows(rods, poses[..., 3]) / swing[..., None]
 
     def conditioning(self, pose: ArrayLike) -> Array:
         """Condition number of L dq -> (dx, dy, dz, h dtheta)."""
@@ -117,10 +114,11 @@ class Par4(RotaryDelta):
 
     def forward(self, joints: ArrayLike) -> Array:
         """Newton's method on |P_i - A_i|^2 = l^2 from the home pose; see `par4_assembly`."""
-        return par4_assembly.newton(self, self._columns(joints, 4)).reshape(np.shape(joints))
+        elbows = self._elbows(self._columns(joints, 4))
+        return par4_assembly.newton(self.platform, elbows, self._l, self.home).reshape(np.shape(joints))
 
     def assemblies(self, joints: ArrayLike) -> list[Assembly]:
-        return par4_assembly.every_mode(self, np.asarray(joints, dtype=float))
+        return par4_assembly.every_mode(self.platform, self._elbows(np.asarray(joints, dtype=float)), self._l)
 
     def _admissible(self, pose: Array, joints: Array) -> NDArray[np.bool_]:
         return np.abs(pose[..., 3]) <= self.geometry.theta_max + LIMIT_TOLERANCE

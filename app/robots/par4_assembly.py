@@ -8,82 +8,77 @@ height both are intersections of two circles, and the assembly is where |W - V| 
 from __future__ import annotations
 
 from itertools import product
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from app.robots.par4_platform import Par4Platform
 from app.robots.robot import LIMIT_TOLERANCE, Array, Assembly
-
-if TYPE_CHECKING:
-    from app.robots.par4 import Par4
 
 MAX_STEP = np.array([0.15, 0.15, 0.15, 0.5])
 """Longest Newton step: from a start inside the workspace it cannot jump to another assembly."""
 
 
-def newton(robot: Par4, joints: Array) -> Array:
-    """(rows, 4) valid poses of (rows, 4) joints, NaN where there is none."""
-    elbows = robot._elbows(joints)
-    poses = np.broadcast_to(robot.home, joints.shape).copy()
-    active = np.asarray(np.isfinite(joints).all(axis=-1))
+def newton(platform: Par4Platform, elbows: Array, rod: float, start: Array) -> Array:
+    """(rows, 4) valid poses for elbows (rows, 4, 3), NaN where there is none; `start` (4,) lies well inside."""
+    poses = np.broadcast_to(start, (len(elbows), 4)).copy()
+    active = np.asarray(np.isfinite(elbows).all(axis=(-1, -2)))
     poses[~active] = np.nan
     for _ in range(30):
         rows = np.flatnonzero(active)
         if not rows.size:
             break
-        step, residual = _newton_step(robot, poses[rows], elbows[rows])
+        step, residual = _newton_step(platform, poses[rows], elbows[rows], rod)
         poses[rows] += step
         active[rows] = residual > 1e-14
-    poses[active | ~_valid(robot, poses, elbows)] = np.nan
+    poses[active | ~_valid(platform, poses, elbows)] = np.nan
     return poses
 
 
-def _newton_step(robot: Par4, pose: Array, elbows: Array) -> tuple[Array, Array]:
+def _newton_step(platform: Par4Platform, pose: Array, elbows: Array, rod: float) -> tuple[Array, Array]:
     """Limited step (rows, 4) and largest residual (rows,) in multiples of l^2."""
-    rods = robot._platform_joints(pose) - elbows
-    residual = (rods**2).sum(-1) - robot._l**2
-    rows = 2.0 * robot.loop_rows(rods, pose[:, 3])
+    rods = platform.joints(pose) - elbows
+    residual = (rods**2).sum(-1) - rod**2
+    rows = 2.0 * platform.loop_rows(rods, pose[:, 3])
     # The tiny diagonal keeps a singular Jacobian from raising; its row then fails to converge.
     step = -np.linalg.solve(rows + 1e-15 * np.eye(4), residual[..., None])[..., 0]
     step /= np.maximum(1.0, np.abs(step / MAX_STEP).max(axis=-1, keepdims=True))
-    return step, np.abs(residual).max(axis=-1) / robot._l**2
+    return step, np.abs(residual).max(axis=-1) / rod**2
 
 
-def _valid(robot: Par4, poses: Array, elbows: Array) -> np.ndarray:
+def _valid(platform: Par4Platform, poses: Array, elbows: Array) -> np.ndarray:
     """The real machine hangs below its elbows and its platform is not turned over."""
-    below = (poses[:, 2] + robot.geometry.P_z)[:, None] < elbows[..., 2]
-    turned = np.abs(poses[:, 3]) <= robot.geometry.theta_max + LIMIT_TOLERANCE
+    below = (poses[:, 2] + platform.height)[:, None] < elbows[..., 2]
+    turned = np.abs(poses[:, 3]) <= platform.theta_max + LIMIT_TOLERANCE
     return below.all(axis=-1) & turned
 
 
-def every_mode(robot: Par4, joints: Array) -> list[Assembly]:
-    """All real assemblies of one set of joints (4,), the valid one first."""
-    elbows = robot._elbows(joints)
-    shift = np.column_stack([robot._along, robot._across, np.full(4, robot.geometry.P_z)])
-    centres = elbows - shift
-    top, bottom = (centres[:, 2] + robot._l).min(), (centres[:, 2] - robot._l).max()
+def every_mode(platform: Par4Platform, elbows: Array, rod: float) -> list[Assembly]:
+    """All real assemblies for one set of elbows (4, 3), the valid one first."""
+    centres = elbows - np.column_stack([platform.along, platform.across, np.full(4, platform.height)])
+    top, bottom = (centres[:, 2] + rod).min(), (centres[:, 2] - rod).max()
     if not top > bottom:
         return []
+    heights = np.linspace(bottom, top, 801)
     found: list[Array] = []
     for far, near in product((1.0, -1.0), repeat=2):
-        found += _roots(robot, centres, np.linspace(bottom, top, 801), far, near)
+        found += _roots(centres, heights, rod, platform.h, (far, near))
     poses = np.array(found).reshape(-1, 4)
-    valid = _valid(robot, poses, np.broadcast_to(elbows, (len(poses), 4, 3)))
+    valid = _valid(platform, poses, np.broadcast_to(elbows, (len(poses), 4, 3)))
     return [Assembly(poses[i], bool(valid[i])) for i in np.argsort(~valid, kind="stable")]
 
 
-def _roots(robot: Par4, centres: Array, heights: Array, far: float, near: float) -> list[Array]:
+def _roots(centres: Array, heights: Array, rod: float, h: float, sides: tuple[float, float]) -> list[Array]:
     """Assemblies of one pair of circle intersections: sign changes of |W - V| - h, narrowed by bisection."""
 
     def bars(z: Array) -> tuple[Array, Array]:
         return (
-            _circle_point(centres[0], centres[1], z, robot._l, far),
-            _circle_point(centres[2], centres[3], z, robot._l, near),
+            _circle_point(centres[0], centres[1], z, rod, sides[0]),
+            _circle_point(centres[2], centres[3], z, rod, sides[1]),
         )
 
     def excess(z: Array) -> Array:
         w, v = bars(z)
-        return np.hypot(*(w - v).T) - robot.geometry.h
+        return np.hypot(*(w - v).T) - h
 
     values = excess(heights)
     starts = np.flatnonzero(values[:-1] * values[1:] < 0.0)
