@@ -68,7 +68,7 @@ class Ghosts:
         if node is not None and len(node.batched_positions) == len(place.positions):
             node.batched_positions, node.batched_wxyzs = place
             return
-        arrays = self._shapes.find(part)
+        arrays = self._shapes.get(part)
         if arrays is None:
             return
         colors = [part_color(part, leg) for leg in body.legs] * ghosts

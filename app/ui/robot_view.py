@@ -56,7 +56,7 @@ class RobotView:
         """Show another robot, or the same one in other dimensions. Shapes that are not at hand come from a
         worker; until then the last machine stays."""
         machine = machine_of(robot)
-        missing = tuple(part for part in machine.parts if self._shapes.find(part) is None)
+        missing = tuple(part for part in machine.parts if self._shapes.get(part) is None)
         if missing:
             self._worker.request(lambda arrays: self._arrived(robot, machine, missing, arrays), part_arrays, missing)
         else:
@@ -65,7 +65,7 @@ class RobotView:
 
     def _arrived(self, robot: Robot, machine: Machine, parts: tuple[Part, ...], shapes: list[Arrays]) -> None:
         for part, arrays in zip(parts, shapes, strict=True):
-            self._shapes.keep(part, arrays)
+            self._shapes.put(part, arrays)
         self._draw(robot, machine)
         self._stream.flush()
 
@@ -79,7 +79,7 @@ class RobotView:
                 path = f"{PARENTS[body.frame]}/{part.name}"
                 node = old.pop(path, None)
                 if node is None or (node.part, node.body.legs) != (part, body.legs):
-                    arrays = self._shapes.find(part)
+                    arrays = self._shapes.get(part)
                     assert arrays is not None, f"the shape of {part.name} is missing"
                     node = PartNode(self._scene, path, body, part, arrays, place)
                 node.body = body

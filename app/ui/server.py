@@ -7,7 +7,6 @@ import multiprocessing
 import signal
 import threading
 import webbrowser
-from collections import OrderedDict
 
 import viser
 
@@ -16,12 +15,13 @@ from app.ui.compute import make_pool
 from app.ui.guard import Guard
 from app.ui.jobs import warm_up
 from app.ui.options import ServeOptions
+from app.ui.recent import Recent
 from app.ui.room import Room
 from app.ui.shape_cache import ShapeCache
 from app.ui.stage import light_the_room
 from app.ui.state import Memory, ViewOptions
 from app.ui.viser_adapter import browser_id, start_server, stop_server
-from app.ui.workspace_view import WorkspaceCache
+from app.ui.workspace_view import CACHE_SIZE, WorkspaceCache
 
 REMEMBERED = 500
 """Browsers that find their robot again after a reload; the longest absent are forgotten first."""
@@ -37,8 +37,8 @@ class Lab:
         self._pool = make_pool()
         self._shapes = ShapeCache()
         self._shapes.learn(build_robot(options.robot, {}))
-        self._spaces = WorkspaceCache()
-        self._memories: OrderedDict[str, Memory] = OrderedDict()
+        self._spaces = WorkspaceCache(CACHE_SIZE)
+        self._memories: Recent[str, Memory] = Recent(REMEMBERED)
         self._fresh = Memory(options.robot, view=ViewOptions(shadows=options.shadows))
         self.rooms: dict[int, Room] = {}
         self.server = start_server(options.host, options.port, Guard(allowed_hosts=options.allowed_hosts))
@@ -79,10 +79,7 @@ class Lab:
         if room is None:
             return
         room.close()
-        self._memories[browser_id(client)] = room.session.memory
-        self._memories.move_to_end(browser_id(client))
-        while len(self._memories) > REMEMBERED:
-            self._memories.popitem(last=False)
+        self._memories.put(browser_id(client), room.session.memory)
 
 
 def serve(options: ServeOptions) -> None:

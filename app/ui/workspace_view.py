@@ -3,36 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections import OrderedDict
 from collections.abc import Hashable
-from typing import Any
 
 import viser
 
 from app.ui import jobs
 from app.ui.compute import Worker
 from app.ui.jobs import CloudPicture, SurfacePicture
+from app.ui.recent import Recent
 from app.ui.session import Session
 
 CACHE_SIZE = 48
 NODE = "/robot/workspace"
 
 
-class WorkspaceCache:
-    """Results that every session shares, the least recently used forgotten first."""
-
-    def __init__(self) -> None:
-        self._results: OrderedDict[Hashable, Any] = OrderedDict()
-
-    def get(self, key: Hashable) -> Any | None:
-        if key in self._results:
-            self._results.move_to_end(key)
-        return self._results.get(key)
-
-    def put(self, key: Hashable, result: Any) -> None:
-        self._results[key] = result
-        while len(self._results) > CACHE_SIZE:
-            self._results.popitem(last=False)
+WorkspaceCache = Recent[Hashable, SurfacePicture | CloudPicture]
+"""Pictures that every session shares."""
 
 
 class WorkspaceView:

@@ -6,6 +6,7 @@ import asyncio
 
 import viser
 
+from app.robots import Robot
 from app.ui.pacing import Paced
 from app.ui.panels.units import labelled, shown, si
 from app.ui.session import Session
@@ -32,7 +33,7 @@ class PosePanel:
         self._pace = Paced(self._refresh, REFRESH_S)
         self._pose_folder = gui.add_folder("Pose")
         self._joint_folder = gui.add_folder("Joints")
-        session.robot_changed.connect(lambda _: self._build())
+        session.robot_changed.connect(self._receive)
         session.stance_changed.connect(lambda _: self._pace.request())
         self._build()
 
@@ -41,7 +42,13 @@ class PosePanel:
         if self._settling is not None:
             self._settling.cancel()
 
+    def _receive(self, robot: Robot) -> None:
+        """New fields for another robot or other joint limits; other dimensions only change what they show."""
+        if (robot.name, robot.joint_limits.tolist()) != self._built_for:
+            self._build()
+
     def _build(self) -> None:
+        self._built_for = (self._session.robot.name, self._session.robot.joint_limits.tolist())
         for handle in (*self._fields, *self._sliders):
             handle.remove()
         robot, stance = self._session.robot, self._session.stance

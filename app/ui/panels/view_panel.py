@@ -23,6 +23,7 @@ class ViewPanel:
     def __init__(self, gui: viser.GuiApi, session: Session, stage: Stage, overlay: Overlay) -> None:
         self._gui = gui
         self._session = session
+        self._built_for = ""
         self._angle: viser.GuiSliderHandle[float] | None = None
         self._leg: viser.GuiDropdownHandle[str] | None = None
         self._switches: dict[str, viser.GuiCheckboxHandle] = {}
@@ -88,6 +89,9 @@ class ViewPanel:
             stage.look("3-D")
 
     def _follow_robot(self) -> None:
+        if self._built_for == self._session.robot_name:
+            return
+        self._built_for = self._session.robot_name
         for handle in (self._angle, self._leg):
             if handle is not None:
                 handle.remove()
