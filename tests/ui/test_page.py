@@ -52,13 +52,19 @@ def agree(page: Page) -> bool:
     return max(abs(a - b) for a, b in zip(tool_mm(page), shown_mm(page), strict=True)) < 0.06
 
 
+def choose_robot(page: Page, name: str) -> None:
+    """Pick a robot and wait until it is there."""
+    choose(page, "Robot", ROBOTS[name].title)
+    home = [1e3 * value for value in make_robot(name).home[:3]]
+    wait_until(page, lambda: math.dist(tool_mm(page), home) < 0.01, f"{name} at home")
+
+
 @pytest.mark.parametrize("name", ROBOTS)
 def test_each_robot_comes_alive(page: Page, server: RunningServer, name: str):
     visit_lab(page, server)
     if name != "par4":
-        choose(page, "Robot", ROBOTS[name].title)
+        choose_robot(page, name)
     home = [1e3 * value for value in make_robot(name).home[:3]]
-    wait_until(page, lambda: math.dist(tool_mm(page), home) < 0.01, f"{name} at home")
     drag_gizmo(page, GIZMO, axis=(1.0, 0.0, 0.0), pixels=40)
     wait_until(page, lambda: math.dist(tool_mm(page), home) > 5.0, "tool away from home")
     wait_until(page, lambda: agree(page), "panel in step with the picture")
@@ -107,14 +113,12 @@ def test_a_typed_pose_moves_robot_gizmo_and_sliders(page: Page, server: RunningS
 
 def test_a_joint_slider_moves_the_tool_and_refuses_the_impossible(page: Page, server: RunningServer):
     visit_lab(page, server)
-    choose(page, "Robot", ROBOTS["delta3"].title)
-    wait_until(page, lambda: abs(tool_mm(page)[2] + 330) < 0.01, "drawing delta at home")
+    choose_robot(page, "delta3")
     set_slider(page, "q1 (deg)", 30)
     pose = make_robot("delta3").forward([math.radians(30), *make_robot("delta3").solve(0.0, 0.0, -0.33)[1:]])
     wait_until(page, lambda: math.dist(tool_mm(page), [1e3 * v for v in pose]) < 0.5, "tool where the joints put it")
     press(page, "Home")
-    choose(page, "Robot", ROBOTS["par4"].title)
-    wait_until(page, lambda: abs(tool_mm(page)[2] + 300) < 0.01, "par4 at home")
+    choose_robot(page, "par4")
     before = tool_mm(page)
     set_slider(page, "q1 (deg)", 44)
     expect(page.get_by_text(re.compile("holds the last pose")).first).to_be_visible()
@@ -142,7 +146,7 @@ def test_two_browsers_are_independent(visit, server: RunningServer):
     one, two = visit(), visit()
     visit_lab(one, server)
     visit_lab(two, server)
-    choose(one, "Robot", ROBOTS["linear"].title)
+    choose_robot(one, "linear")
     type_into(one, "x (mm)", 40)
     wait_until(one, lambda: abs(tool_mm(one)[0] - 40) < 0.01, "first browser's robot")
     assert field(two, "Robot").input_value() == ROBOTS["par4"].title
@@ -151,7 +155,7 @@ def test_two_browsers_are_independent(visit, server: RunningServer):
 
 def test_a_reload_keeps_the_students_robot(page: Page, server: RunningServer):
     visit_lab(page, server)
-    choose(page, "Robot", ROBOTS["fivebar"].title)
+    choose_robot(page, "fivebar")
     type_into(page, "y (mm)", 350)
     wait_until(page, lambda: abs(tool_mm(page)[1] - 350) < 0.01, "typed pose")
     page.reload()

@@ -48,12 +48,15 @@ class PosePanel:
             self._build()
 
     def _build(self) -> None:
-        self._built_for = (self._session.robot.name, self._session.robot.joint_limits.tolist())
-        for handle in (*self._fields, *self._sliders):
-            handle.remove()
+        """Make what depends on the robot. The position fields stay, so that nobody types into one that goes."""
         robot, stance = self._session.robot, self._session.stance
+        self._built_for = (robot.name, robot.joint_limits.tolist())
+        for handle in (*self._fields[3:], *self._sliders):
+            handle.remove()
         with self._pose_folder:
-            self._fields = [self._add_field(i, name, stance.pose[i]) for i, name in enumerate(robot.pose_names)]
+            kept = self._fields[:3]
+            names = list(enumerate(robot.pose_names))[len(kept) :]
+            self._fields = kept + [self._add_field(i, name, stance.pose[i]) for i, name in names]
         with self._joint_folder:
             self._sliders = [self._add_slider(i, name, stance.joints[i]) for i, name in enumerate(robot.joint_names)]
 
