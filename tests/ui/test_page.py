@@ -129,7 +129,7 @@ def test_a_joint_slider_moves_the_tool_and_refuses_the_impossible(page: Page, se
 def test_a_changed_geometry_changes_the_machine(page: Page, server: RunningServer):
     visit_lab(page, server)
     page.get_by_text("Geometry", exact=True).click()
-    set_slider(page, "l (mm)", 450)
+    set_slider(page, "Rod length l (mm)", 450)
     longer = make_robot("par4", l=0.45)
     stands = longer.nearest([0.0, -0.036, -0.3, 0.0]).tolist()
     joints = [math.degrees(q) for q in longer.solve(*stands)]

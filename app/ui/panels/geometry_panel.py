@@ -61,7 +61,7 @@ class GeometryPanel:
         dimension = self._session.robot.geometry.dimensions()[name]
         low, high = shown(dimension.low, "m"), shown(dimension.high, "m")
         value = shown(getattr(self._session.robot.geometry, name), "m")
-        slider = self._gui.add_slider(labelled(name, "m"), low, high, 1.0, value, hint=dimension.label)
+        slider = self._gui.add_slider(f"{dimension.label} {labelled(name, 'm')}", low, high, 1.0, value)
 
         @slider.on_update
         async def _(event: viser.GuiEvent[viser.GuiSliderHandle[float]]) -> None:
