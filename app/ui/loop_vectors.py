@@ -18,17 +18,19 @@ LEAST_LENGTH_M = 1e-3
 
 
 class LoopVectors:
-    """Arrows and their names, following the robot of one session."""
+    """Arrows and their names, for the robot that the session has now."""
 
-    def __init__(self, scene: viser.SceneApi, leg: int) -> None:
+    def __init__(self, scene: viser.SceneApi, session: Session, leg: int) -> None:
         self._scene = scene
+        self._session = session
         self._leg = leg
+        self._lift = machine_of(session.robot).lift
         self._arrows: viser.ArrowsHandle | None = None
         self._labels: list[viser.LabelHandle] = []
 
-    def show(self, session: Session) -> None:
+    def show(self) -> None:
         """Draw the chain for the present stance."""
-        chain = leg_chain(session, self._leg)
+        chain = leg_chain(self._session, self._leg, self._lift)
         if self._arrows is None:
             self._create(chain)
             return
@@ -63,13 +65,12 @@ class LoopVectors:
             )
 
 
-def leg_chain(session: Session, leg: int) -> NDArray[np.float32]:
-    """(k, 2, 3) start and end of each vector, in the order of `NAMES`, where the machine is drawn."""
+def leg_chain(session: Session, leg: int, lift: float) -> NDArray[np.float32]:
+    """(k, 2, 3) start and end of each vector, in the order of `NAMES`, raised to where the machine is drawn."""
     robot, stance = session.robot, session.stance
     skeleton = robot.skeleton(stance.pose, stance.joints)
     base, elbow, platform = (points[leg] for points in skeleton[:3])
     origin, tool = np.zeros(3), np.array(stance.position)
-    lift = machine_of(robot).lift
     if lift:
         tool[2] = platform[2]
     chain = [(origin, base), (base, elbow), (elbow, platform), (origin, tool), (tool, platform)]

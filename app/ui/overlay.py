@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 
 import numpy as np
@@ -32,7 +33,7 @@ class Overlay:
         self._pace = Paced(self._refresh, REFRESH_S)
         session.robot_changed.connect(lambda _: self._rebuild())
         session.view_changed.connect(lambda _: self._rebuild())
-        session.stance_changed.connect(lambda _: self._pace.request())
+        session.stance_changed.connect(lambda _: self._request())
         self._rebuild()
 
     def clear_trace(self) -> None:
@@ -51,9 +52,13 @@ class Overlay:
             self._vectors.remove()
             self._vectors = None
         if view.vectors_leg is not None and view.vectors_leg < self._session.robot.legs:
-            self._vectors = LoopVectors(self._scene, view.vectors_leg)
-        self._trace.clear()
+            self._vectors = LoopVectors(self._scene, self._session, view.vectors_leg)
+        self.clear_trace()
         self._refresh()
+
+    def _request(self) -> None:
+        if self._vectors is not None or self._session.view.trace:
+            self._pace.request()
 
     def _add_frames(self) -> list[viser.FrameHandle]:
         names = ("/robot/base_frame", "/robot/tool/frame")
@@ -61,15 +66,15 @@ class Overlay:
 
     def _refresh(self) -> None:
         if self._vectors is not None:
-            self._vectors.show(self._session)
+            self._vectors.show()
         if self._session.view.trace:
             self._lengthen_trace()
-        self._draw_trace()
 
     def _lengthen_trace(self) -> None:
         point = self._session.stance.position
-        if not self._trace or np.linalg.norm(np.subtract(point, self._trace[-1])) >= TRACE_STEP_M:
+        if not self._trace or math.dist(point, self._trace[-1]) >= TRACE_STEP_M:
             self._trace.append(point)
+            self._draw_trace()
 
     def _draw_trace(self) -> None:
         if len(self._trace) < 2:

@@ -11,7 +11,6 @@ LEGS: tuple[Rgb, ...] = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (204, 121,
 """Colour of leg (and drive) 1, 2, 3, 4."""
 WARNING: Rgb = (204, 51, 17)
 """The leg that stops the robot, and nothing else."""
-GHOST: Rgb = (140, 150, 160)
 TRACE: Rgb = (86, 180, 233)
 VECTOR: Rgb = (86, 86, 96)
 """Vectors that belong to no leg."""

@@ -186,6 +186,13 @@ class WireClient:
         )
 
 
+def note(client: WireClient, *types: str) -> list[Message]:
+    """Fills with the messages of these types that a client receives from now on."""
+    noted: list[Message] = []
+    client.listeners.append(lambda message, _: noted.append(message) if message["type"] in types else None)
+    return noted
+
+
 @contextlib.asynccontextmanager
 async def wire_client(
     url: str, *, greet: bool = True, headers: Mapping[str, str] | None = None, version: str | None = None

@@ -24,7 +24,7 @@ from tests.support.small_lab import (
     guarded_lab,
     round_trip,
 )
-from tests.support.wire import Message, WireClient, run_async
+from tests.support.wire import note, run_async
 
 TURNED = np.tile((0.0, 1.0, 0.0, 0.0), (INSTANCES, 1))
 
@@ -33,13 +33,6 @@ TURNED = np.tile((0.0, 1.0, 0.0, 0.0), (INSTANCES, 1))
 def lab() -> Iterator[SmallLab]:
     with guarded_lab() as lab:
         yield lab
-
-
-def note(client: WireClient, *types: str) -> list[Message]:
-    """Fills with the messages of these types that a client receives from now on."""
-    noted: list[Message] = []
-    client.listeners.append(lambda message, _: noted.append(message) if message["type"] in types else None)
-    return noted
 
 
 def test_place_sends_one_message_and_keeps_the_handle_in_step(lab: SmallLab) -> None:

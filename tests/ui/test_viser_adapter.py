@@ -39,20 +39,13 @@ from tests.support.small_lab import (
     round_trip,
 )
 from tests.support.widgets import set_slider, type_into, upload
-from tests.support.wire import Message, WireClient, run_async, wire_client
+from tests.support.wire import note, run_async, wire_client
 
 
 @pytest.fixture
 def lab() -> Iterator[SmallLab]:
     with guarded_lab() as lab:
         yield lab
-
-
-def note(client: WireClient, *types: str) -> list[Message]:
-    """Fills with the messages of these types that a client receives from now on."""
-    noted: list[Message] = []
-    client.listeners.append(lambda message, _: noted.append(message) if message["type"] in types else None)
-    return noted
 
 
 def test_viser_is_the_version_that_was_looked_at() -> None:
