@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Literal
+from typing import Literal, get_args
 
 from app.control import PID_APPROX, PID_AUTO, Pid
 from app.control.sampled_pid import Sampling
 from app.motion import Tour
 from app.simulation.hardware import Hardware
 from app.simulation.run import Run
-from app.simulation.tracking import Start, Task, follow_sampled, follow_simulink
+from app.simulation.tracking import Start, Task, TrackingError, follow_sampled, follow_simulink
 
 Mode = Literal["paper", "sampled"]
 
@@ -40,9 +40,13 @@ def circle_tracking(
         `.ise` are Table 4's indices of the four drives, deg^2 s.
 
     Raises:
-        TrackingError: for a duration or lap that cannot be computed.
+        TrackingError: for a controller that does not exist, or a duration or lap that cannot be computed.
     """
     named = {"auto": PID_AUTO, "approx": PID_APPROX if mode == "paper" else replace(PID_APPROX, n=APPROX_FILTER_RAD_S)}
+    if isinstance(controller, str) and controller not in named:
+        raise TrackingError(f"There is no controller {controller!r}; choose auto, approx, or a Pid of your own.")
+    if mode not in get_args(Mode):
+        raise TrackingError(f"There is no mode {mode!r}; choose paper or sampled.")
     pid = named[controller] if isinstance(controller, str) else controller
     name = controller if isinstance(controller, str) else "own PID"
     task = Task(tour=Tour(lap_s=lap_s, clockwise=clockwise), duration_s=duration_s, start=start)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from app.control import Motor, Pid
@@ -18,8 +18,8 @@ class DriveLoop:
 
     motor: Motor
     pid: Pid
-    sampling: Sampling = Sampling()
-    hardware: Hardware = Hardware()
+    sampling: Sampling = field(default_factory=Sampling)
+    hardware: Hardware = field(default_factory=Hardware)
 
 
 class Trace(NamedTuple):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -36,7 +36,7 @@ class Task:
 
     robot: str = "par4"
     dimensions: dict[str, float] = field(default_factory=dict)
-    tour: Tour = Tour()
+    tour: Tour = field(default_factory=Tour)
     duration_s: float = 100.0
     start: Start = "rest"
     """`rest`: joints at 0, or at home for a robot whose joints cannot be 0 there, which makes the first instant a
@@ -94,7 +94,9 @@ def sample_times(duration_s: float, step_s: float) -> Array:
     """
     steps = duration_s / step_s if step_s > 0.0 else math.nan
     if not 1.0 <= steps <= MAX_SAMPLES:
-        raise TrackingError(f"A run of {duration_s:g} s in steps of {step_s:g} s cannot be computed; change one.")
+        raise TrackingError(
+            f"A run of {duration_s:g} s in steps of {step_s:g} s cannot be computed: it takes 1 to {MAX_SAMPLES} steps."
+        )
     return step_s * np.arange(round(steps))
 
 
@@ -104,6 +106,8 @@ def reference(robot: Robot, task: Task, t: Array) -> tuple[Array, Array, Array]:
     Raises:
         TrackingError: if part of the path is out of reach, with the limit that is in the way.
     """
+    if not task.tour.lap_s > 0.0:
+        raise TrackingError(f"A lap takes more than 0 s, not {task.tour.lap_s:g} s.")
     rest = resting_joints(robot)
     if task.start != "smooth":
         poses = _reachable(robot, task.tour.poses(robot, t))
@@ -129,8 +133,3 @@ def _reachable(robot: Robot, poses: Array) -> Array:
         reason = robot.reach(poses[int(np.argmax(outside))]).reason.rstrip(".")
         raise TrackingError(f"Part of the path is out of reach ({reason[:1].lower()}{reason[1:]}): make it smaller.")
     return poses
-
-
-def scaled_to(task: Task, size_m: float) -> Task:
-    """The same task on a path of another size."""
-    return replace(task, tour=replace(task.tour, size_m=size_m))

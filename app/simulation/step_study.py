@@ -1,0 +1,142 @@
+"""One drive after a step of its set-point: as the board does it, beside the ideal loop of the textbook."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.control.frequency import OpenLoop
+from app.control.margins import Margins, margins
+from app.control.step_metrics import StepMetrics, step_metrics
+from app.simulation.sampled_loop import DriveLoop, fewest_substeps, simulate
+
+Array = NDArray[np.float64]
+
+POINTS = 300
+"""About this many points make a curve that looks smooth in a panel."""
+
+NEARLY_IDEAL = 40.0
+"""An ideal derivative is drawn as one that is filtered this many times above the crossover's usual place."""
+
+MAX_PERIODS = 60_000
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is to be looked at."""
+
+    loop: DriveLoop
+    setpoint: float
+    """Height of the step, in the motor's unit."""
+    duration_s: float = 3.0
+    seed: int = 0
+
+
+class Response(NamedTuple):
+    """Curves over time, and what they amount to."""
+
+    t: Array
+    """(k,) s"""
+    y: Array
+    """(k,) output, in the motor's unit."""
+    u: Array
+    """(k,) control signal, V."""
+    metrics: StepMetrics
+
+
+class Frequency(NamedTuple):
+    """The open loop over frequency, its margins, and the poles of the closed one."""
+
+    omega: Array
+    """(m,) rad/s"""
+    gain_db: Array
+    """(m,); NaN above the frequency up to which a sampled loop has a meaning."""
+    phase_deg: Array
+    """(m,) unwrapped."""
+    margins: Margins
+    poles: NDArray[np.complex128]
+    """rad/s"""
+
+
+class Study(NamedTuple):
+    """The answer."""
+
+    board: Response
+    """Sampled, with all imperfections that are switched on."""
+    ideal: Response
+    """Continuous and linear, without any."""
+    board_frequency: Frequency
+    ideal_frequency: Frequency
+
+
+def study(question: Question) -> Study:
+    """Everything about one loop, in a few milliseconds."""
+    loop = question.loop
+    continuous = OpenLoop(loop.motor, loop.pid)
+    hardware = loop.hardware
+    real_motor = loop.motor.loaded(hardware.inertia_factor, hardware.viscous)
+    sampled = OpenLoop(real_motor, loop.pid, hardware.delay_s, loop.sampling)
+    omega = np.geomspace(*_frequency_range(continuous), 240)
+    return Study(
+        board_response(question), ideal_response(question), _frequency(sampled, omega), _frequency(continuous, omega)
+    )
+
+
+def board_response(question: Question) -> Response:
+    """The sampled loop, with values between the controller's instants too."""
+    period = question.loop.sampling.period_s
+    periods = min(max(2, math.ceil(question.duration_s / period)), MAX_PERIODS)
+    fewest = fewest_substeps(question.loop.hardware, period)
+    between = fewest * math.ceil(max(1.0, POINTS / (periods * fewest)))
+    trace = simulate(question.loop, [question.setpoint] * periods, substeps=between, seed=question.seed)
+    t = period / between * np.arange(len(trace.y))
+    y, u = np.array(trace.y), np.array(trace.u)
+    metrics = step_metrics(t, y, question.setpoint, u, question.loop.hardware.supply_v)
+    return Response(*_thinned(t, y, u), replace(metrics, ise=trace.ise))
+
+
+def ideal_response(question: Question) -> Response:
+    """The continuous linear loop, by python-control: y = G Cr / (1 + G C) r, u = Cr / (1 + G C) r."""
+    import control
+
+    motor, pid, t = question.loop.motor, question.loop.pid, np.linspace(0.0, question.duration_s, 2 * POINTS + 1)
+    if pid.kd and math.isinf(pid.n):
+        pid = replace(pid, n=NEARLY_IDEAL * max(10.0, math.sqrt(motor.K * abs(pid.kp))))
+    G, C, Cr = motor.transfer_function(), pid.transfer_function(), pid.setpoint_transfer_function()
+    y = _forced(control.minreal(G * Cr / (1 + G * C), verbose=False), t, question.setpoint)
+    u = _forced(control.minreal(Cr / (1 + G * C), verbose=False), t, question.setpoint)
+    return Response(*_thinned(t, y, u), step_metrics(t, y, question.setpoint, u))
+
+
+def _forced(system: object, t: Array, height: float) -> Array:
+    import control
+
+    return np.asarray(control.forced_response(system, t, np.full_like(t, height)).outputs)
+
+
+def _thinned(*curves: Array) -> tuple[Array, ...]:
+    """Every k-th point of each curve, so that about `POINTS` are left."""
+    every = max(1, len(curves[0]) // POINTS)
+    return tuple(np.ascontiguousarray(curve[::every]) for curve in curves)
+
+
+def _frequency_range(loop: OpenLoop) -> tuple[float, float]:
+    """Two decades below the crossover to two above."""
+    crossover = margins(loop).crossover_rad_s
+    middle = crossover if math.isfinite(crossover) else max(1.0, loop.motor.T1)
+    return middle / 100.0, middle * 100.0
+
+
+def _frequency(loop: OpenLoop, omega: Array) -> Frequency:
+    L = np.where(omega < loop.highest_rad_s, loop.response(omega), np.nan)
+    gain_db = 20.0 * np.log10(np.abs(L))
+    phase = np.full_like(omega, np.nan)
+    known = np.isfinite(L)
+    phase[known] = np.degrees(np.unwrap(np.angle(L[known])))
+    if known.any():
+        phase[known] -= 360.0 * math.ceil((phase[known][0] - 45.0) / 360.0)
+    return Frequency(omega, gain_db, phase, margins(loop), loop.poles())
