@@ -28,6 +28,16 @@ class Meshes:
     """Folder to write to."""
 
 
+@dataclass(frozen=True)
+class Reproduce:
+    """Compare every number of the papers with ours."""
+
+    paper: str = "all"
+    """Whose numbers: par4, or all."""
+    json: bool = False
+    """Print an array of objects for other programs instead of the table."""
+
+
 def serve(options: ServeOptions) -> None:
     from app.ui.server import serve as serve_page
 
@@ -44,8 +54,22 @@ def build_meshes(command: Meshes) -> None:
         raise UserMistake(f"Cannot write meshes to {command.directory}: {error.strerror}.") from error
 
 
+def reproduce(command: Reproduce) -> None:
+    from app.simulation.reproduce import PAPERS
+    from app.simulation.reproduce.report import as_json, print_table
+
+    if command.paper not in (*PAPERS, "all"):
+        raise UserMistake(f"There is no paper {command.paper!r}: choose {', '.join(PAPERS)} or all.")
+    papers = PAPERS if command.paper == "all" else {command.paper: PAPERS[command.paper]}
+    if command.json:
+        print(as_json(papers))
+    else:
+        print_table(papers)
+
+
 COMMANDS: dict[str, tuple[type, Callable[..., None]]] = {
     "meshes": (Meshes, build_meshes),
+    "reproduce": (Reproduce, reproduce),
 }
 """Name of a command -> its options and what carries it out. Without a name, the page is served."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,7 @@ from app.control.pid import Pid
 from app.control.sampled_pid import Sampling
 
 Complex = NDArray[np.complex128]
-Array = NDArray[np.float64]
+Array = NDArray[np.floating[Any]]
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class OpenLoop:
         """(...,) L at frequencies (...) in rad/s."""
         s = 1j * np.asarray(omega, dtype=float)
         loop = _continuous(self.motor, self.pid, s) if self.sampling is None else self._sampled(s)
-        return loop * np.exp(-s * self.delay_s)
+        return np.asarray(loop * np.exp(-s * self.delay_s), dtype=complex)
 
     def poles(self) -> Complex:
         """(k,) closed-loop poles in rad/s; those of a sampled loop are mapped by ln(z) / h. The delay is left out:
@@ -45,7 +46,7 @@ class OpenLoop:
             return np.roots(np.polyadd(*_characteristic(self.motor, self.pid))).astype(complex)
         roots = np.roots(np.polyadd(*_sampled_characteristic(self.pid, self.sampling, *self._plant))).astype(complex)
         roots = roots[np.abs(roots) > 1e-12]
-        return np.log(roots) / self.sampling.period_s
+        return np.asarray(np.log(roots) / self.sampling.period_s, dtype=complex)
 
     @cached_property
     def _plant(self) -> tuple[list[float], list[float]]:

@@ -72,8 +72,10 @@ def _crossings(loop: OpenLoop, omega: Array, values: Array, of: Callable[[comple
 
     logs = np.log(omega)
     brackets = np.flatnonzero(np.sign(values[:-1]) * np.sign(values[1:]) < 0.0)
-    refine = [brentq(lambda x: of(_at(loop, math.exp(x))), logs[k], logs[k + 1], xtol=1e-12) for k in brackets]
-    return [math.exp(x) for x in refine]
+    return [
+        math.exp(float(brentq(lambda x: of(_at(loop, math.exp(x))), logs[k], logs[k + 1], xtol=1e-12)))  # pyright: ignore[reportArgumentType]
+        for k in brackets
+    ]
 
 
 def _bandwidth(omega: Array, L: NDArray[np.complex128]) -> float:

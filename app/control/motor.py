@@ -57,7 +57,7 @@ class Motor:
         """G(s) = K / (s^2 + T1 s + T2) as a python-control object."""
         import control
 
-        return control.tf([self.K], [1.0, self.T1, self.T2])
+        return control.TransferFunction([self.K], [1.0, self.T1, self.T2])
 
     def sampled(self, period_s: float) -> control.TransferFunction:
         """G(z) behind a zero-order hold of `period_s`, as a python-control object."""

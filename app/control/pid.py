@@ -63,13 +63,13 @@ class Pid:
         """(kp b s + ki) / s + kd c N s / (s + N), without the factors that are not there."""
         import control
 
-        parts = control.tf([self.kp * b], [1.0])
+        parts = control.TransferFunction([self.kp * b], [1.0])
         if self.ki:
-            parts = control.tf([self.kp * b, self.ki], [1.0, 0.0])
+            parts = control.TransferFunction([self.kp * b, self.ki], [1.0, 0.0])
         if self.kd * c:
             filtered = math.isfinite(self.n)
             derivative = ([self.kd * c * self.n, 0.0], [1.0, self.n]) if filtered else ([self.kd * c, 0.0], [1.0])
-            parts = parts + control.tf(*derivative)
+            parts = parts + control.TransferFunction(*derivative)
         return parts
 
 

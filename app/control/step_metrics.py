@@ -47,7 +47,7 @@ def step_metrics(t: ArrayLike, y: ArrayLike, setpoint: float, u: ArrayLike, u_ma
     top = int(np.argmax(progress))
     tail = max(1, len(time) // 20)
     return StepMetrics(
-        overshoot_pct=100.0 * max(0.0, float(progress[top]) - 1.0),
+        overshoot_pct=100.0 * max(float(progress[top]) - 1.0, 0.0),
         rise_s=_first_crossing(time, progress, 0.9) - _first_crossing(time, progress, 0.1),
         settling_s=_settling(time, progress),
         peak=float(output[top]),
@@ -57,7 +57,7 @@ def step_metrics(t: ArrayLike, y: ArrayLike, setpoint: float, u: ArrayLike, u_ma
         iae=float(np.trapezoid(np.abs(error), time)),
         itae=float(np.trapezoid(np.abs(error) * (time - time[0]), time)),
         control_energy=float(np.trapezoid(control**2, time)),
-        saturation_pct=100.0 * float(np.mean(np.abs(control) >= u_max * (1.0 - 1e-9))),
+        saturation_pct=100.0 * float(np.mean(np.abs(control) >= u_max * (1.0 - 1e-9))) if u_max < math.inf else 0.0,
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Literal, get_args
 
-from app.control import PID_APPROX, PID_AUTO, Pid
+from app.control import PAR4_MOTOR, PID_APPROX, PID_AUTO, Pid
 from app.control.sampled_pid import Sampling
 from app.motion import Tour
 from app.simulation.hardware import Hardware
@@ -52,4 +52,4 @@ def circle_tracking(
     task = Task(tour=Tour(lap_s=lap_s, clockwise=clockwise), duration_s=duration_s, start=start)
     if mode == "paper":
         return follow_simulink(task, pid, u_max, title=f"Circle, {name}, as in the paper")
-    return follow_sampled(task, pid, Sampling(), Hardware(supply_v=u_max), title=f"Circle, {name}, sampled")
+    return follow_sampled(task, PAR4_MOTOR, pid, Sampling(), Hardware(supply_v=u_max), title=f"Circle, {name}, sampled")

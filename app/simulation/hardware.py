@@ -28,7 +28,7 @@ class Hardware:
     supply_v: float = math.inf
     """Largest voltage to either side."""
     pwm_steps: int = 0
-    """Steps of the pulse width from 0 to full voltage; 0 for none."""
+    """Steps of the pulse width from 0 to the supply's voltage; 0 for none, and none without a limited supply."""
     adc_bits: int = 0
     """Resolution of the position reading; 0 for a perfect one. The STM32F4 has 12, the Arduino Uno 10."""
     sensor_range: float = 340.0
@@ -63,7 +63,7 @@ def shaft(motor: Motor, hardware: Hardware, step_s: float, y: float = 0.0) -> Sh
     turn = _rotor(motor.loaded(hardware.inertia_factor, hardware.viscous), hardware.coulomb_v, step_s, y)
     if hardware.delay_s:
         turn = _delayed(turn, round(min(hardware.delay_s, MAX_DELAY_S) / step_s))
-    if hardware.pwm_steps:
+    if hardware.pwm_steps and math.isfinite(hardware.supply_v):
         turn = _in_steps(turn, hardware.supply_v / hardware.pwm_steps)
     return _with_play(turn, hardware.backlash / 2, y) if hardware.backlash else turn
 
@@ -72,10 +72,10 @@ def sensor(hardware: Hardware, seed: int, readings: int) -> Sensor:
     """The position reading; its noise repeats with the seed."""
     resolution = hardware.sensor_range / 2**hardware.adc_bits if hardware.adc_bits else 0.0
     if not hardware.noise:
-        return (lambda y: round(y / resolution) * resolution) if resolution else (lambda y: y)
+        return (lambda y: _in_whole(y, resolution)) if resolution else (lambda y: y)
     noise = iter((hardware.noise * np.random.default_rng(seed).standard_normal(readings)).tolist())
     if resolution:
-        return lambda y: round((y + next(noise)) / resolution) * resolution
+        return lambda y: _in_whole(y + next(noise), resolution)
     return lambda y: y + next(noise)
 
 
@@ -116,7 +116,12 @@ def _delayed(turn: Shaft, steps: int) -> Shaft:
 
 
 def _in_steps(turn: Shaft, step_v: float) -> Shaft:
-    return lambda u: turn(round(u / step_v) * step_v)
+    return lambda u: turn(_in_whole(u, step_v))
+
+
+def _in_whole(value: float, step: float) -> float:
+    """The nearest multiple; what a diverging loop has made infinite stays so."""
+    return round(value / step) * step if math.isfinite(value) else value
 
 
 def _with_play(turn: Shaft, half: float, y: float) -> Shaft:

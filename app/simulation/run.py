@@ -57,14 +57,28 @@ class Run:
         return SHOWN[self._joint_si][0]
 
     @property
+    def joint_factor(self) -> float:
+        """`joint_unit` per rad or m."""
+        return SHOWN[self._joint_si][1]
+
+    @property
     def joint_error(self) -> Array:
         """(k, n) reference minus actual, in `joint_unit`."""
-        return (self.q_ref - self.q) * SHOWN[self._joint_si][1]
+        return (self.q_ref - self.q) * self.joint_factor
 
     @property
     def tool_error_m(self) -> Array:
         """(k,) distance of the tool from where it should have been."""
         return np.linalg.norm((self.pose_ref - self.pose)[:, :3], axis=1)
+
+    def outline(self, points: int, first_s: float = 0.0, last_s: float = np.inf) -> NDArray[np.intp]:
+        """Indices of about `points` instants of a stretch of time, more of them where much happens."""
+        inside = np.flatnonzero((self.t >= first_s) & (self.t <= last_s))
+        if len(inside) <= points:
+            return inside
+        motion = np.abs(np.diff(self.q[inside], axis=0)).sum(axis=1) + 1e-12
+        pace = np.cumsum(motion / motion.sum() + 1.0 / len(motion))
+        return inside[np.unique([0, *np.searchsorted(pace, np.linspace(0.0, pace[-1], points)), len(inside) - 1])]
 
     @property
     def saturation_share(self) -> float:

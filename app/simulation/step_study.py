@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,10 +93,10 @@ def board_response(question: Question) -> Response:
     fewest = fewest_substeps(question.loop.hardware, period)
     between = fewest * math.ceil(max(1.0, POINTS / (periods * fewest)))
     trace = simulate(question.loop, [question.setpoint] * periods, substeps=between, seed=question.seed)
-    t = period / between * np.arange(len(trace.y))
+    t = np.arange(len(trace.y), dtype=float) * (period / between)
     y, u = np.array(trace.y), np.array(trace.u)
     metrics = step_metrics(t, y, question.setpoint, u, question.loop.hardware.supply_v)
-    return Response(*_thinned(t, y, u), replace(metrics, ise=trace.ise))
+    return _thinned(t, y, u, replace(metrics, ise=trace.ise))
 
 
 def ideal_response(question: Question) -> Response:
@@ -109,19 +109,19 @@ def ideal_response(question: Question) -> Response:
     G, C, Cr = motor.transfer_function(), pid.transfer_function(), pid.setpoint_transfer_function()
     y = _forced(control.minreal(G * Cr / (1 + G * C), verbose=False), t, question.setpoint)
     u = _forced(control.minreal(Cr / (1 + G * C), verbose=False), t, question.setpoint)
-    return Response(*_thinned(t, y, u), step_metrics(t, y, question.setpoint, u))
+    return _thinned(t, y, u, step_metrics(t, y, question.setpoint, u))
 
 
-def _forced(system: object, t: Array, height: float) -> Array:
+def _forced(system: Any, t: Array, height: float) -> Array:
     import control
 
-    return np.asarray(control.forced_response(system, t, np.full_like(t, height)).outputs)
+    return height * np.asarray(control.step_response(system, t).outputs)
 
 
-def _thinned(*curves: Array) -> tuple[Array, ...]:
+def _thinned(t: Array, y: Array, u: Array, metrics: StepMetrics) -> Response:
     """Every k-th point of each curve, so that about `POINTS` are left."""
-    every = max(1, len(curves[0]) // POINTS)
-    return tuple(np.ascontiguousarray(curve[::every]) for curve in curves)
+    every = max(1, len(t) // POINTS)
+    return Response(*(np.ascontiguousarray(curve[::every]) for curve in (t, y, u)), metrics=metrics)
 
 
 def _frequency_range(loop: OpenLoop) -> tuple[float, float]:

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from app.control import Pid
+from app.control import Motor, Pid
 from app.control.drives import DRIVES
 from app.control.sampled_pid import Sampling
 from app.motion import Tour, quintic
@@ -46,7 +46,9 @@ class Task:
         return build_robot(self.robot, self.dimensions)
 
 
-def follow_sampled(task: Task, pid: Pid, sampling: Sampling, hardware: Hardware, title: str = "") -> Run:
+def follow_sampled(
+    task: Task, motor: Motor, pid: Pid, sampling: Sampling, hardware: Hardware, title: str = ""
+) -> Run:
     """With controllers as a microcontroller runs them. Voltages.
 
     Raises:
@@ -55,7 +57,7 @@ def follow_sampled(task: Task, pid: Pid, sampling: Sampling, hardware: Hardware,
     robot, t = task.build(), sample_times(task.duration_s, sampling.period_s)
     pose_ref, q_ref, starts = reference(robot, task, t)
     factor = SHOWN[robot.joint_units[0]][1]
-    loop = DriveLoop(DRIVES[task.robot].motor, pid, sampling, hardware)
+    loop = DriveLoop(motor, pid, sampling, hardware)
     rows = zip((q_ref * factor).T.tolist(), (starts * factor).tolist(), strict=True)
     traces = [sampled_loop.simulate(loop, row, start=y, seed=joint) for joint, (row, y) in enumerate(rows)]
     every = len(traces[0].y) // len(t)
@@ -97,7 +99,7 @@ def sample_times(duration_s: float, step_s: float) -> Array:
         raise TrackingError(
             f"A run of {duration_s:g} s in steps of {step_s:g} s cannot be computed: it takes 1 to {MAX_SAMPLES} steps."
         )
-    return step_s * np.arange(round(steps))
+    return np.arange(round(steps), dtype=float) * step_s
 
 
 def reference(robot: Robot, task: Task, t: Array) -> tuple[Array, Array, Array]:

@@ -12,14 +12,31 @@ import os
 import signal
 from collections.abc import Callable
 from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor
-from typing import Any
+from typing import Any, NamedTuple
 
 _log = logging.getLogger(__name__)
 
 
-def make_pool() -> ProcessPoolExecutor:
+class Pools(NamedTuple):
+    """Two lanes, so that what must follow a slider never waits behind what takes seconds."""
+
+    quick: Executor
+    """For jobs of some ten milliseconds."""
+    slow: Executor
+
+    def shutdown(self) -> None:
+        """Drop what is waiting."""
+        for pool in self:
+            pool.shutdown(cancel_futures=True)
+
+
+def make_pools() -> Pools:
     """Workers that leave the interrupt key to the server and the processor to the event loop."""
-    workers = max(1, min(4, (os.cpu_count() or 2) - 1))
+    cores = os.cpu_count() or 2
+    return Pools(quick=_make_pool(max(1, min(2, cores - 1))), slow=_make_pool(max(1, min(4, cores - 1))))
+
+
+def _make_pool(workers: int) -> ProcessPoolExecutor:
     return ProcessPoolExecutor(workers, multiprocessing.get_context("spawn"), initializer=_start_worker)
 
 

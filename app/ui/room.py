@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
-from concurrent.futures import Executor
 
 import viser
 
-from app.ui.compute import Worker
+from app.ui.compute import Pools, Worker
+from app.ui.control_room import ControlRoom
 from app.ui.ghosts import Ghosts
 from app.ui.gizmo import Gizmo
 from app.ui.notice import Notice
@@ -33,13 +33,13 @@ class Room:
         self,
         client: viser.ClientHandle,
         memory: Memory,
-        pool: Executor,
+        pools: Pools,
         shapes: ShapeCache,
         spaces: WorkspaceCache,
     ) -> None:
         self._client = client
         self.session = Session(memory)
-        self._pool = pool
+        self._pools = pools
         self._shapes = shapes
         self._spaces = spaces
         self._workers: list[Worker] = []
@@ -81,12 +81,26 @@ class Room:
         tabs = gui.add_tab_group()
         with tabs.add_tab("Robot", viser.Icon.ROBOT):
             robot_panel = RobotPanel(gui, session)
+        control_tab = tabs.add_tab("Control", viser.Icon.ADJUSTMENTS)
         with tabs.add_tab("View", viser.Icon.EYE):
             ViewPanel(gui, session, stage, overlay)
-        self._closers += [overlay.close, ghosts.close, robot_panel.close]
+        lab = ControlRoom(client, session, control_tab, self._quick_worker(), self._worker, self._tell)
+        self._closers += [overlay.close, ghosts.close, robot_panel.close, lab.close]
 
-    def _worker(self) -> Worker:
-        worker = Worker(self._pool, self._tell)
+    def _worker(self, failed: Callable[[], None] | None = None) -> Worker:
+        """A line of slow work; `failed` is called after a job of it could not be done and the user was told."""
+
+        def tell(sentence: str) -> None:
+            self._tell(sentence)
+            if failed is not None:
+                failed()
+
+        return self._employ(Worker(self._pools.slow, tell))
+
+    def _quick_worker(self) -> Worker:
+        return self._employ(Worker(self._pools.quick, self._tell))
+
+    def _employ(self, worker: Worker) -> Worker:
         self._workers.append(worker)
         return worker
 

@@ -11,7 +11,8 @@ import webbrowser
 import viser
 
 from app.robots import ROBOTS, build_robot
-from app.ui.compute import make_pool
+from app.ui.compute import make_pools
+from app.ui.control_jobs import warm_up as warm_up_control
 from app.ui.guard import Guard
 from app.ui.jobs import warm_up
 from app.ui.options import ServeOptions
@@ -34,7 +35,7 @@ class Lab:
 
     def __init__(self, options: ServeOptions) -> None:
         self._options = options
-        self._pool = make_pool()
+        self._pools = make_pools()
         self._shapes = ShapeCache()
         self._shapes.learn(build_robot(options.robot, {}))
         self._spaces = WorkspaceCache(CACHE_SIZE)
@@ -57,11 +58,12 @@ class Lab:
         stop_server(self.server)
         for process in multiprocessing.active_children():
             process.terminate()
-        self._pool.shutdown(cancel_futures=True)
+        self._pools.shutdown()
 
     def warm_up(self) -> None:
-        """Start the first worker and build the other robots' shapes while nobody waits for them."""
-        self._pool.submit(warm_up)
+        """Start the workers and build the other robots' shapes while nobody waits for them."""
+        self._pools.quick.submit(warm_up_control)
+        self._pools.slow.submit(warm_up)
         for name in ROBOTS:
             self._shapes.learn(build_robot(name, {}))
         # What the start has made stays: the garbage collector need not walk through it during drags.
@@ -70,7 +72,7 @@ class Lab:
 
     async def _welcome(self, client: viser.ClientHandle) -> None:
         memory = self._memories.get(browser_id(client)) or self._fresh
-        room = Room(client, memory, self._pool, self._shapes, self._spaces)
+        room = Room(client, memory, self._pools, self._shapes, self._spaces)
         self.rooms[client.client_id] = room
         await room.furnish()
 

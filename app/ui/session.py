@@ -45,6 +45,8 @@ class Session:
         self.robot_name = memory.robot
         self.dimensions = dict(memory.dimensions)
         self.view = memory.view
+        self.control = memory.control
+        """Settings of the control lab, for the next visit."""
         self.robot = build_robot(self.robot_name, self.dimensions)
         pose = memory.pose if memory.pose and self.robot.reach(memory.pose).ok else tuple(self.robot.home.tolist())
         self.stance = self._standing(pose)
@@ -52,7 +54,7 @@ class Session:
     @property
     def memory(self) -> Memory:
         """What to keep for the next visit."""
-        return Memory(self.robot_name, dict(self.dimensions), self.stance.pose, self.view)
+        return Memory(self.robot_name, dict(self.dimensions), self.stance.pose, self.view, self.control)
 
     def choose_robot(self, name: str) -> None:
         """Take another robot, with its default dimensions, at home."""
@@ -113,6 +115,11 @@ class Session:
         """Stay at the last pose and say so."""
         reason = f"{verdict.reason.rstrip('.')}: the robot holds the last pose."
         self._set_stance(dataclasses.replace(self.stance, reach=verdict._replace(reason=reason)))
+
+    def replay(self, pose: Sequence[float], joints: Sequence[float]) -> None:
+        """Stand as recorded, joints and pose just as they were."""
+        recorded = tuple(map(float, pose)), tuple(map(float, joints))
+        self._set_stance(Stance(*recorded, recorded[0], Reach(True, joints=recorded[1])))
 
     def show(self, **options: object) -> None:
         """Change some of the view options."""

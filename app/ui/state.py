@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from app.robots import Reach
+from app.ui.control_settings import ControlSettings
 
 Pose = tuple[float, ...]
 Joints = tuple[float, ...]
@@ -71,3 +72,5 @@ class Memory:
     """Changed dimensions by symbol, m or rad."""
     pose: Pose | None = None
     view: ViewOptions = ViewOptions()
+    control: ControlSettings | None = None
+    """None before the control lab was used."""

@@ -12,6 +12,18 @@ LEGS: tuple[Rgb, ...] = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (204, 121,
 WARNING: Rgb = (204, 51, 17)
 """The leg that stops the robot, and nothing else."""
 TRACE: Rgb = (86, 180, 233)
+ACTUAL: Rgb = TRACE
+"""What a tool or a drive really did."""
+REFERENCE: Rgb = (120, 120, 128)
+"""What it should have done; limits too."""
+IDEAL: Rgb = (153, 153, 51)
+"""What an ideal machine would have done."""
+BASELINE: Rgb = (136, 34, 85)
+"""What was kept to compare with."""
+MARK: Rgb = (213, 94, 0)
+"""A point to look at."""
+MARK_2: Rgb = (51, 34, 136)
+"""Another one in the same plot."""
 VECTOR: Rgb = (86, 86, 96)
 """Vectors that belong to no leg."""
 

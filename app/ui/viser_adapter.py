@@ -89,6 +89,11 @@ def show_value(element: viser.GuiInputHandle[Value], value: Value) -> None:
         state.gui_api._websock_interface.queue_message(_messages.GuiUpdateMessage(state.uuid, {"value": value}))
 
 
+def element_id(element: viser.GuiInputHandle[Any]) -> str:
+    """The HTML id of an input on the page, for a style of its own."""
+    return element._impl.uuid
+
+
 def silence_gizmo_echo(gizmo: viser.TransformControlsHandle) -> None:
     """Let a position assigned while the gizmo is dragged reach who drags it.
 
