@@ -66,6 +66,8 @@ def test_every_robot_can_be_chosen(served: list[ServeOptions], robot: str) -> No
         ("--wat", "--wat"),
         ("dance", "no command 'dance'"),
         ("meshes --directry x", "did you mean --directory?"),
+        ("reproduce --paper foo", "no paper 'foo'"),
+        ("reproduce --papr par4", "did you mean --paper?"),
     ],
 )
 @pytest.mark.parametrize("columns", ["80", "30"])
@@ -95,7 +97,8 @@ def test_help_names_every_option_and_command(capsys: pytest.CaptureFixture[str])
         main(["--help"])
     assert leaving.value.code == 0
     printed = capsys.readouterr().out
-    for word in ("--host", "--port", "--robot", "--no-browser", "--allow-host", "deltalab meshes", *ROBOTS):
+    options = ("--host", "--port", "--robot", "--no-browser", "--allow-host")
+    for word in (*options, "deltalab meshes", "deltalab reproduce", *ROBOTS):
         assert word in printed
 
 

@@ -71,7 +71,8 @@ def uncertainty(found: Found, data: Samples) -> tuple[Array, Array]:
     from scipy.special import stdtrit
 
     jacobian = _jacobian(found.parameters, data)
-    scale = np.linalg.norm(jacobian, axis=0)
+    length = np.linalg.norm(jacobian, axis=0)
+    scale = np.where(length > 0.0, length, 1.0)
     _, singular, directions = np.linalg.svd(jacobian / scale, full_matrices=False)
     # Directions that the data do not show at all get a huge variance instead of a division by zero.
     singular = np.maximum(singular, np.finfo(float).eps * singular[0])

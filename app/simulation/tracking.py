@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,8 +52,9 @@ def follow_sampled(
     """With controllers as a microcontroller runs them. Voltages.
 
     Raises:
-        TrackingError: if part of the path is out of reach.
+        TrackingError: if part of the path is out of reach, or a number or name makes no sense.
     """
+    _check_limit(hardware.supply_v)
     robot, t = task.build(), sample_times(task.duration_s, sampling.period_s)
     pose_ref, q_ref, starts = reference(robot, task, t)
     factor = SHOWN[robot.joint_units[0]][1]
@@ -70,10 +71,11 @@ def follow_simulink(task: Task, pid: Pid, u_max: float, step_s: float = 0.01, ti
     """With continuous controllers, as the Par4 paper simulated it; the control signal is called percent there.
 
     Raises:
-        TrackingError: if part of the path is out of reach.
+        TrackingError: if part of the path is out of reach, or a number or name makes no sense.
     """
     if task.start != "rest":
         raise TrackingError("The paper's simulation starts from rest; choose the sampled controller for another start.")
+    _check_limit(u_max)
     robot, t = task.build(), sample_times(task.duration_s, step_s)
     pose_ref, q_ref, _ = reference(robot, task, t)
     factor = SHOWN[robot.joint_units[0]][1]
@@ -110,6 +112,8 @@ def reference(robot: Robot, task: Task, t: Array) -> tuple[Array, Array, Array]:
     """
     if not task.tour.lap_s > 0.0:
         raise TrackingError(f"A lap takes more than 0 s, not {task.tour.lap_s:g} s.")
+    if task.start not in get_args(Start):
+        raise TrackingError(f"There is no start {task.start!r}; choose rest, reference or smooth.")
     rest = resting_joints(robot)
     if task.start != "smooth":
         poses = _reachable(robot, task.tour.poses(robot, t))
@@ -127,6 +131,11 @@ def resting_joints(robot: Robot) -> Array:
     zero = np.zeros(len(robot.joint_names))
     pose = robot.forward(zero)
     return zero if not np.isnan(pose).any() and robot.reachable(pose) else robot.inverse(robot.home)
+
+
+def _check_limit(u_max: float) -> None:
+    if not u_max > 0.0:
+        raise TrackingError(f"The control signal needs a limit above 0, not {u_max:g}.")
 
 
 def _reachable(robot: Robot, poses: Array) -> Array:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import NamedTuple
 
+from app.control.tuning_methods import methods_for
 from app.robots import Robot
 from app.simulation.step_study import Study
 from app.ui.compute import Worker
@@ -50,7 +51,10 @@ class ControlDesk:
         """Set some values; gains set by hand end a tuning method."""
         if GAINS & values.keys() and "tuning" not in values:
             values["tuning"] = BY_HAND
-        self.take(changed(self.settings, **values))
+        settings = changed(self.settings, **values)
+        if settings.tuning not in methods_for(settings.motor):
+            settings = replace(settings, tuning=BY_HAND)
+        self.take(settings)
 
     def set_run(self, **values: object) -> None:
         """Change how the robot is to run; the step experiment stays as it is."""

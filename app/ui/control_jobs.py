@@ -32,16 +32,23 @@ class Answer(NamedTuple):
 def answer(settings: ControlSettings) -> Answer:
     """Tune, where a method is chosen, and study the loop."""
     note, refused = "", False
-    if settings.tuning in METHODS:
-        try:
-            wish = Wish(settings.response_time_s, settings.transient, settings.sampling.period_s)
-            tuned = METHODS[settings.tuning].tune(settings.motor, wish)
-        except TuningError as error:
-            note, refused = str(error), True
-        else:
-            note = tuned.note
-            settings = replace(settings, pid=replace(tuned.pid, b=settings.pid.b, c=settings.pid.c))
+    try:
+        settings, note = tuned(settings)
+    except TuningError as error:
+        note, refused = str(error), True
     return Answer(settings, note, refused, study(settings.question))
+
+
+def tuned(settings: ControlSettings) -> tuple[ControlSettings, str]:
+    """The settings with the gains of their tuning method, and what that has to say.
+
+    Raises `TuningError` where the method does not apply.
+    """
+    if settings.tuning not in METHODS:
+        return settings, ""
+    wish = Wish(settings.response_time_s, settings.transient, settings.sampling.period_s)
+    found = METHODS[settings.tuning].tune(settings.motor, wish)
+    return replace(settings, pid=replace(found.pid, b=settings.pid.b, c=settings.pid.c)), found.note
 
 
 class Refusal(NamedTuple):
@@ -52,6 +59,10 @@ class Refusal(NamedTuple):
 
 def run_robot(settings: ControlSettings, dimensions: dict[str, float]) -> Run | Refusal:
     """All drives of the robot follow the chosen path once."""
+    try:
+        settings, _ = tuned(settings)
+    except TuningError as error:
+        return Refusal(str(error))
     wanted = settings.run
     task = Task(settings.robot, dimensions, wanted.tour, wanted.tour.lap_s, wanted.start)
     title = run_title(settings)

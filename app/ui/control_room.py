@@ -9,17 +9,22 @@ import viser
 from app.ui.compute import Worker
 from app.ui.control_desk import ControlDesk
 from app.ui.panels.control_panel import ControlPanel
+from app.ui.panels.motor_panel import MotorPanel
 from app.ui.panels.run_panel import RunPanel
 from app.ui.panels.run_settings_panel import variants
-from app.ui.panels.study_panel import FrequencyPlots, StepPlots
+from app.ui.panels.study_panel import FrequencyPlots, ResponsePlot, StepPlots
 from app.ui.playback import Playback
 from app.ui.plots import PLOT_STYLE
 from app.ui.run_book import RunBook
 from app.ui.session import Session
+from app.ui.stage import PHONE_WIDTH_PX
 from app.ui.tab_bell import on_tab_opened
 from app.ui.traps import TRAPS
 
 WIDTH = 420
+
+PHONE_PLOT_PX = 140
+"""On a phone the plots are a section further down, so the response also stands above the sliders, and stays there."""
 
 
 class ControlRoom:
@@ -60,6 +65,8 @@ class ControlRoom:
         desk = ControlDesk(session, self._quick)
         book = RunBook(session, self._slow(lambda: book.failed()), self._tell)
         with self._tab:
+            if client.camera.image_width < PHONE_WIDTH_PX:
+                ResponsePlot(client.gui, desk, PHONE_PLOT_PX)
             ControlPanel(client.gui, desk, lambda trap: book.request(*variants(desk.settings, TRAPS[trap].runs)))
         self._panel = client.gui.add_panel()
         with self._panel.add_tab("Step", viser.Icon.CHART_LINE):
@@ -68,6 +75,8 @@ class ControlRoom:
             FrequencyPlots(client, desk)
         with self._panel.add_tab("Run", viser.Icon.PLAYER_PLAY):
             self._runs = RunPanel(client, desk, book, Playback(session), self._slow(None))
+        with self._panel.add_tab("Motor", viser.Icon.ENGINE):
+            motor = MotorPanel(client, desk, self._slow(lambda: motor.failed()))
         self._panel.dock_left()
         self._panel.set_width(WIDTH)
         desk.open()

@@ -16,7 +16,7 @@ from app.simulation.tracking import Start
 
 BY_HAND = "By hand"
 
-STARTS: dict[Start, str] = {"rest": "From rest", "reference": "On the path", "smooth": "Smooth start, 5 s"}
+STARTS: dict[Start, str] = {"rest": "From rest", "reference": "On the path", "smooth": "Smooth start (5 s)"}
 """Start of a run -> what students read."""
 
 
@@ -59,7 +59,10 @@ class ControlSettings:
 
     @property
     def controller_name(self) -> str:
-        return f"PID ({self.pid.kp:.3g}, {self.pid.ki:.3g}, {self.pid.kd:.3g})" if self.tuning == BY_HAND else self.tuning
+        """For titles."""
+        if self.tuning != BY_HAND:
+            return self.tuning
+        return f"PID ({self.pid.kp:.3g}, {self.pid.ki:.3g}, {self.pid.kd:.3g})"
 
 
 RUN_SIZES_M = {"par4": 0.1, "delta3": 0.1, "linear": 0.08, "fivebar": 0.06}

@@ -15,7 +15,6 @@ from app.ui import theme
 
 HEIGHT_PX = 210
 AXIS_FONT = "11px system-ui, sans-serif"
-MARK_SIZE_PX = 9
 HIDDEN = "deltalab-hidden"
 """Class of legend entries that nobody should see."""
 
@@ -35,6 +34,8 @@ class Curve:
     dash: tuple[int, ...] = ()
     marks_only: bool = False
     """Points instead of a line."""
+    size: int = 9
+    """Of the points, pixels."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,7 @@ class Plot:
             axes=self._both_axes(),
             legend=uplot.Legend(show=True, live=False),
             height=height,
-            padding=(10, 12, 0, 0),
+            padding=(10, 20, 0, 0),
         )
 
     def show(self, x: ArrayLike, *ys: ArrayLike) -> None:
@@ -117,7 +118,7 @@ def _series(curve: Curve, absent: bool) -> uplot.Series:
     color = theme.css(curve.color)
     series = uplot.Series(label=curve.label, stroke=color, width=0 if curve.marks_only else curve.width, auto=False)
     if curve.marks_only:
-        series["points"] = uplot.Series_Points(show=True, size=MARK_SIZE_PX, fill=color, width=1)
+        series["points"] = uplot.Series_Points(show=True, size=curve.size, fill=color, width=1)
     else:
         series["points"] = uplot.Series_Points(show=False)
     if curve.dash:

@@ -27,8 +27,12 @@ SHEET_HEIGHT = 0.42
 SHEET_STYLE = f"""<style>@media (max-width: {PHONE_WIDTH_PX - 1}px) {{
   .mantine-Paper-root[style*="20em"] {{ width: 100vw !important; max-height: {SHEET_HEIGHT:.0%} !important; }}
   .mantine-Paper-root[style*="20em"] > * [style*="20em"] {{ width: 100vw !important; }}
+  div:has(> .uplot-container):first-child {{ position: sticky; top: 0; z-index: 4; }}
+  div:has(> div > div > .mantine-Tabs-root) {{ overflow: visible !important; }}
+  .uplot-container {{ background: var(--mantine-color-body); }}
 }}</style>"""
-"""viser's sheet is half as wide as a phone and covers more than half of its height."""
+"""viser's sheet is half as wide as a phone and covers more than half of its height. A first plot stays in sight while
+what is below it scrolls."""
 
 DIRECTIONS: dict[View, tuple[float, float, float] | None] = {
     "3-D": None,

@@ -18,11 +18,11 @@ REFERENCE: Rgb = (120, 120, 128)
 """What it should have done; limits too."""
 IDEAL: Rgb = (153, 153, 51)
 """What an ideal machine would have done."""
-BASELINE: Rgb = (136, 34, 85)
+BASELINE: Rgb = (180, 60, 130)
 """What was kept to compare with."""
 MARK: Rgb = (213, 94, 0)
 """A point to look at."""
-MARK_2: Rgb = (51, 34, 136)
+MARK_2: Rgb = (125, 105, 215)
 """Another one in the same plot."""
 VECTOR: Rgb = (86, 86, 96)
 """Vectors that belong to no leg."""

@@ -42,7 +42,7 @@ IMPERFECTIONS = (
     Imperfection("pwm_steps", "PWM steps", 255, 1023, 1, low=2, hint="8 bits have 255"),
     Imperfection("adc_bits", "Sensor (bits)", 10, 16, 1, low=6, hint="STM32F4: 12 bits, Arduino Uno: 10 bits"),
     Imperfection("noise", "Noise (UNIT)", 0.1, 1.0, 0.01, hint="Standard deviation of the reading"),
-    Imperfection("delay_s", "Delay (ms)", 20.0, 200.0, 1.0, per_si=1e3, hint="From the computed to the applied voltage"),
+    Imperfection("delay_s", "Delay (ms)", 20.0, 200.0, 1.0, per_si=1e3, hint="From computed to applied voltage"),
     Imperfection("coulomb_v", "Dry friction (V)", 0.5, 4.0, 0.05, hint="Voltage at which the motor begins to turn"),
     Imperfection("viscous", "Viscous friction (1/s)", 2.0, 20.0, 0.1, hint="Added to the motor's own damping"),
     Imperfection("inertia_factor", "Inertia (times)", 2.0, 5.0, 0.05, low=0.2, off=1.0, hint="Of arm and load"),

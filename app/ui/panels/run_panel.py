@@ -49,6 +49,7 @@ class RunPanel:
         self._save = gui.add_button("Save this run as CSV", icon=viser.Icon.DOWNLOAD, visible=False)
         self._forget = gui.add_button("Forget all runs", icon=viser.Icon.ERASER, visible=False)
         book.selected.connect(self._show)
+        book.busy_changed.connect(self._play_when_done)
         self._listen()
 
     def close(self) -> None:
@@ -78,7 +79,9 @@ class RunPanel:
         self._list(run)
         for element in (self._choice, self._save, self._forget):
             element.visible = run is not None
-        if run is not None:
+
+    def _play_when_done(self, busy: bool) -> None:
+        if not busy and self._book.run is not None:
             self._playback.play()
 
     def _list(self, run: Run | None) -> None:

@@ -25,48 +25,61 @@ BASELINE = Curve("baseline", theme.BASELINE, 1.5)
 SETPOINT = Curve("set-point", theme.REFERENCE, 1.5, DASH)
 
 
+MARKS = (
+    Curve("peak", theme.MARK, marks_only=True),
+    Curve("10 % and 90 %", theme.MARK_2, marks_only=True),
+    Curve("settled", theme.LEGS[2], marks_only=True),
+)
+
+
+class ResponsePlot:
+    """The step response with its set-point and marks."""
+
+    def __init__(self, gui: viser.GuiApi, desk: ControlDesk, height: int) -> None:
+        self._desk = desk
+        self._unit = desk.settings.motor.unit
+        self._plot = Plot(gui, self._axes(), (SETPOINT, IDEAL, BASELINE, NOW, *MARKS), "Step response", height)
+        desk.answered.connect(self._show)
+
+    def csv(self) -> str:
+        return self._plot.csv()
+
+    def _axes(self) -> Axes:
+        return Axes("Time (s)", f"Position ({self._unit})")
+
+    def _show(self, answer: Answer) -> None:
+        if answer.settings.motor.unit != self._unit:
+            self._unit = answer.settings.motor.unit
+            self._plot.rename(self._axes())
+        board, ideal = answer.study.board, answer.study.ideal
+        kept = self._desk.baseline.study.board if self._desk.baseline else None
+        setpoint = np.full_like(board.t, answer.settings.setpoint)
+        curves = setpoint, _on(board.t, ideal, "y"), _on(board.t, kept, "y"), board.y
+        self._plot.show(board.t, *curves, *_marks(board, answer.settings.setpoint))
+
+
 class StepPlots:
     """What the joint does, and what that takes."""
 
     def __init__(self, client: viser.ClientHandle, desk: ControlDesk) -> None:
         gui = client.gui
         self._desk = desk
-        self._unit = desk.settings.motor.unit
-        marks = (
-            Curve("peak", theme.MARK, marks_only=True),
-            Curve("10 % and 90 %", theme.MARK_2, marks_only=True),
-            Curve("settled", theme.LEGS[2], marks_only=True),
-        )
-        self._response = Plot(gui, self._axes(), (SETPOINT, IDEAL, BASELINE, NOW, *marks), "Step response", 260)
+        response = ResponsePlot(gui, desk, 260)
         limits = (Curve("limit", theme.REFERENCE, 1.5, LIMIT), Curve("limit (negative)", theme.REFERENCE, 1.5, LIMIT))
         volts = Axes("Time (s)", "Control signal (V)")
         self._control = Plot(gui, volts, (*limits, IDEAL, BASELINE, NOW), "Control signal", 190)
         self._table = gui.add_html("")
-        offer(client, "Save step as CSV", lambda: ("step.csv", self._response.csv()))
+        offer(client, "Save step as CSV", lambda: ("step.csv", response.csv()))
         offer(client, "Save control signal as CSV", lambda: ("control-signal.csv", self._control.csv()))
         desk.answered.connect(self._show)
 
-    def _axes(self) -> Axes:
-        return Axes("Time (s)", f"Position ({self._unit})")
-
     def _show(self, answer: Answer) -> None:
         settings, study = answer.settings, answer.study
-        if settings.motor.unit != self._unit:
-            self._unit = settings.motor.unit
-            self._response.rename(self._axes())
-        t, setpoint = study.board.t, settings.setpoint
-        kept = self._desk.baseline.study.board if self._desk.baseline else None
-        self._response.show(
-            t,
-            np.full_like(t, setpoint),
-            _on(t, study.ideal, "y"),
-            _on(t, kept, "y"),
-            study.board.y,
-            *_marks(study.board, setpoint),
-        )
+        t, kept = study.board.t, self._desk.baseline.study.board if self._desk.baseline else None
         limit = settings.hardware.supply_v if np.isfinite(settings.hardware.supply_v) else np.nan
         limits = (np.full_like(t, limit), np.full_like(t, -limit))
-        ideal = np.clip(_on(t, study.ideal, "u"), *_room_for(study, limit))
+        ideal = _on(t, study.ideal, "u")
+        ideal[np.abs(ideal) > _room_for(study, limit)] = np.nan
         self._control.show(t, *limits, ideal, _on(t, kept, "u"), study.board.u)
         self._table.content = metrics_table(answer, self._desk.baseline)
 
@@ -90,9 +103,12 @@ class FrequencyPlots:
             "Open loop: phase, and the margin above -180°",
             200,
         )
-        points = [Curve(curve.label, curve.color, marks_only=True) for curve in (IDEAL, BASELINE, NOW)]
+        points = [
+            Curve(curve.label, curve.color, marks_only=True, size=size)
+            for curve, size in ((IDEAL, 13), (BASELINE, 10), (NOW, 7))
+        ]
         plane = Axes("Real part (1/s)", "Imaginary part (1/s)")
-        self._poles = Plot(gui, plane, points, "Poles of the closed loop", 220)
+        self._poles = Plot(gui, plane, points, "Poles of the closed loop: stable left of 0", 220)
         self._table = gui.add_html("")
         offer(client, "Save gain as CSV", lambda: ("gain.csv", self._gain.csv()))
         offer(client, "Save phase as CSV", lambda: ("phase.csv", self._phase.csv()))
@@ -126,10 +142,9 @@ def _over(omega: Array, frequency: Frequency | None, what: str) -> Array:
     return np.interp(omega, frequency.omega, getattr(frequency, what), left=np.nan, right=np.nan)
 
 
-def _room_for(study: Study, limit: float) -> tuple[float, float]:
-    """The ideal signal may start with a spike that would flatten everything else."""
-    most = max(float(np.max(np.abs(study.board.u))), 0.0 if np.isnan(limit) else limit, 1e-6)
-    return -1.5 * most, 1.5 * most
+def _room_for(study: Study, limit: float) -> float:
+    """The ideal signal may start with a spike that would flatten everything else; beyond this it is left out."""
+    return 1.5 * max(float(np.max(np.abs(study.board.u))), 0.0 if np.isnan(limit) else limit, 1e-6)
 
 
 def _marks(board: Response, setpoint: float) -> tuple[Array, Array, Array]:
@@ -158,9 +173,13 @@ def _nearest_mark(omega: Array, at: float) -> NDArray[np.bool_]:
 
 
 def _scatter(groups: list[NDArray[np.complex128]]) -> tuple[Array, ...]:
-    """Points of several groups over one axis in ascending order; NaN where a point is another group's."""
+    """Points of several groups over one axis in ascending order; NaN where a point is another group's. The axis
+    goes on a little to either side, and beyond 0, where a loop becomes unstable."""
     points = np.concatenate(groups)
     owner = np.repeat(np.arange(len(groups)), [len(group) for group in groups])
     order = np.argsort(points.real, kind="stable")
     x, y, owner = points.real[order], points.imag[order], owner[order]
-    return x, *(np.where(owner == k, y, np.nan) for k in range(len(groups)))
+    margin = 0.08 * max(float(x.max(initial=0.0) - x.min(initial=0.0)), 1e-3)
+    x = np.concatenate([[x.min(initial=0.0) - margin], x, [x.max(initial=0.0) + margin]])
+    columns = [np.where(owner == k, y, np.nan) for k in range(len(groups))]
+    return x, *(np.concatenate([[np.nan], column, [np.nan]]) for column in columns)

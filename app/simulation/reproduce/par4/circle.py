@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from app.control import PAR4_MOTOR, PID_APPROX, PID_AUTO, Pid
@@ -43,10 +45,11 @@ def _found(section: Section) -> list[Figure]:
     lap, limit = fit("lap_s", 1.0), fit("u_max", 1.0)
     by_volts = ", ".join(f"{ise:.0f}" for ise in indices(Settings(u_max=SUPPLY_V))["auto"])
     percent = (
-        f"Table 4 asks for {limit.value:.2f} +- {limit.either_way:.2f}: the pulse width in per cent, fed to a model that"
+        f"Table 4 asks for {limit.value:.2f} +- {limit.either_way:.2f}: the pulse width in per cent, although the model"
         f" was identified in volts. With +-{SUPPLY_V:.0f} V the row of PID_auto would be {by_volts}."
     )
     derivative = "The change since the last step, 0 in the first: no kick. PID_auto has the filter of Table 2."
+    solver = "Simulink's fixed step of third order; it integrates the squared error, too."
     return [
         section.open("one lap", "s", Settings().lap_s, f"Table 4 asks for {lap.value:.2f} +- {lap.either_way:.2f}."),
         section.open("sense", "", "counter-cw", "The other one exchanges drives I and IV, II and III."),
@@ -54,9 +57,7 @@ def _found(section: Section) -> list[Figure]:
         section.open("joints at rest, t = 0", "deg", 0.0, "So the first instant is a step of up to 26 deg."),
         section.open("control signal limited to +-", "%", Settings().u_max, percent),
         section.open("derivative of PID_approx", "", "per step", derivative),
-        section.open(
-            "solver", "", "ode3", "Simulink's fixed step of third order; it integrates the squared error, too."
-        ),
+        section.open("solver", "", "ode3", solver),
     ]
 
 
@@ -68,11 +69,11 @@ def table_4() -> list[Figure]:
         for tuning, row in TABLE_4.items()
         for drive, printed, ise in zip(DRIVE_NAMES, row, circle_tracking(tuning).ise, strict=True)
     ]
-    note = "The printed numbers are not these: the authors' program did not have the slip in (18)."
     slips = [
-        section.beyond(f"PID_{name}, drive III by (18)", "deg2 s", _with_slip(pid), note) for name, pid in PIDS.items()
+        section.beyond(f"PID_{tuning}, drive III by (18)", "deg2 s", _with_slip(pid)) for tuning, pid in PIDS.items()
     ]
-    return figures + slips
+    note = "Not what is printed above: the authors' program did not have the slip in (18)."
+    return [*figures, *slips[:-1], replace(slips[-1], note=note)]
 
 
 def without_the_step() -> list[Figure]:
@@ -83,13 +84,12 @@ def without_the_step() -> list[Figure]:
         f" On the circle itself PID_approx is: it has {PID_APPROX.ki / PID_AUTO.ki:.0f} times the integral gain."
     )
     starts: tuple[tuple[Start, str], ...] = (("reference", "starting on the circle"), ("smooth", "5 s from rest to it"))
-    return [
-        section.beyond(
-            f"PID_{tuning}, {words}", "deg2 s", _sampled(tuning, start), reversed_ if tuning == "approx" else ""
-        )
+    figures = [
+        section.beyond(f"PID_{tuning}, {words}", "deg2 s", _sampled(tuning, start))
         for start, words in starts
         for tuning in PIDS
     ]
+    return [*figures[:-1], replace(figures[-1], note=reversed_)]
 
 
 def _with_slip(pid: Pid) -> float:

@@ -99,18 +99,17 @@ def _box(section: Section) -> list[Figure]:
     ours = np.stack([np.floor(ends[:, 0] / 10.0), np.ceil(ends[:, 1] / 10.0)], axis=1) * 10.0
     printed = (1e3 * np.stack([BOX_LOW, BOX_HIGH], axis=1)).round().astype(int)
     figures = []
-    for axis, name in enumerate("xyz"):
-        note = f"The workspace itself: {ends[axis, 0]:.0f} .. {ends[axis, 1]:.0f} mm; ours is rounded outward to 10 mm."
-        for side, word in enumerate(("lowest", "highest")):
-            note = note if side else ""
-            figures.append(section.compared(f"{name}, {word}", "mm", str(printed[axis, side]), ours[axis, side], note))
+    for name, (low, high), (first, last), (left, right) in zip("xyz", printed, ours, ends, strict=True):
+        itself = f"The workspace itself: {left:.0f} .. {right:.0f} mm; ours is rounded outward to 10 mm."
+        figures.append(section.compared(f"{name}, lowest", "mm", str(low), first))
+        figures.append(section.compared(f"{name}, highest", "mm", str(high), last, itself))
     return figures
 
 
 @cache
 def _ends() -> Array:
     """(3, 2) lowest and highest x, y and z of the workspace, mm."""
-    vertices = 1e3 * boundary(Par4(GEOMETRY), rings=96, segments=96).vertices
+    vertices = 1e3 * boundary(Par4(GEOMETRY), rings=240, segments=48).vertices
     return np.stack([vertices.min(axis=0), vertices.max(axis=0)], axis=1)
 
 
@@ -123,7 +122,7 @@ def _searched() -> Array:
 def _reached(geometry: Par4Geometry) -> NDArray[np.bool_]:
     """(k,) which of them every arm reaches within its limits."""
     angles = arm_angles(_searched(), geometry)
-    return ((angles >= geometry.q_min) & (angles <= geometry.q_max)).all(axis=-1)
+    return np.all((angles >= geometry.q_min) & (angles <= geometry.q_max), axis=-1)
 
 
 def _shortest_rod(geometry: Par4Geometry) -> float:
