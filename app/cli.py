@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
 
@@ -13,6 +14,9 @@ EXIT_INTERRUPTED = 130
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command line; returns the exit status. A user's mistake is one sentence on stderr."""
+    # The matrices here are tiny: threads of the linear algebra library cost milliseconds and save nothing. It looks
+    # at this when it is loaded, and worker processes inherit it.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
         from app.commands import run
 

@@ -36,6 +36,8 @@ class Curve:
     """Points instead of a line."""
     size: int = 9
     """Of the points, pixels."""
+    optional: bool = False
+    """Named in the legend only while it is there. Coming and going rebuilds the chart, so not for what often does."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,7 @@ class Axes:
 
 
 class Plot:
-    """A chart whose curves can be exchanged while it stands; NaN leaves a gap, and a curve of NaN is not there.
+    """A chart whose curves can be exchanged while it stands; NaN leaves a gap.
 
     uPlot takes a range from the first value of a curve on, and a NaN there spoils it. So the range comes from a
     curve of its own that is not drawn and spans all others.
@@ -60,8 +62,8 @@ class Plot:
     ) -> None:
         self._axes = axes
         self._curves = tuple(curves)
-        self._absent = frozenset(range(len(self._curves)))
-        empty = np.array([1.0, 2.0])
+        self._absent = frozenset(k for k, curve in enumerate(self._curves) if curve.optional)
+        empty = np.array([1.0, 2.0])  # a logarithmic axis has no zero
         self._chart = gui.add_uplot(
             (empty, empty, *(np.full(2, np.nan) for _ in curves)),
             self._series(),
@@ -78,7 +80,9 @@ class Plot:
         abscissa, *ordinates = (np.array(values, dtype=float) for values in (x, *ys))
         if len(ordinates) != len(self._curves):
             raise ValueError(f"{len(self._curves)} curves need as many arrays, not {len(ordinates)}.")
-        absent = frozenset(k for k, curve in enumerate(ordinates) if not np.isfinite(curve).any())
+        absent = frozenset(
+            k for k, curve in enumerate(self._curves) if curve.optional and not np.isfinite(ordinates[k]).any()
+        )
         if absent != self._absent:
             self._absent = absent
             self._chart.series = self._series()

@@ -8,9 +8,9 @@ from collections.abc import Callable
 import viser
 
 from app.ui.compute import Pools, Worker
-from app.ui.control_room import ControlRoom
 from app.ui.ghosts import Ghosts
 from app.ui.gizmo import Gizmo
+from app.ui.lab.room import ControlRoom
 from app.ui.notice import Notice
 from app.ui.overlay import Overlay
 from app.ui.panels.robot_panel import RobotPanel

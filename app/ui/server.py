@@ -12,9 +12,9 @@ import viser
 
 from app.robots import ROBOTS, build_robot
 from app.ui.compute import make_pools
-from app.ui.control_jobs import warm_up as warm_up_control
 from app.ui.guard import Guard
 from app.ui.jobs import warm_up
+from app.ui.lab.jobs import warm_up as warm_up_control
 from app.ui.options import ServeOptions
 from app.ui.recent import Recent
 from app.ui.room import Room

@@ -28,7 +28,7 @@ SHEET_STYLE = f"""<style>@media (max-width: {PHONE_WIDTH_PX - 1}px) {{
   .mantine-Paper-root[style*="20em"] {{ width: 100vw !important; max-height: {SHEET_HEIGHT:.0%} !important; }}
   .mantine-Paper-root[style*="20em"] > * [style*="20em"] {{ width: 100vw !important; }}
   div:has(> .uplot-container):first-child {{ position: sticky; top: 0; z-index: 4; }}
-  div:has(> div > div > .mantine-Tabs-root) {{ overflow: visible !important; }}
+  div:has(> div > div > .mantine-Tabs-root) {{ overflow: clip !important; max-width: 100vw; }}
   .uplot-container {{ background: var(--mantine-color-body); }}
 }}</style>"""
 """viser's sheet is half as wide as a phone and covers more than half of its height. A first plot stays in sight while

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from app.robots import Reach
-from app.ui.control_settings import ControlSettings
+from app.ui.lab.settings import ControlSettings
 
 Pose = tuple[float, ...]
 Joints = tuple[float, ...]

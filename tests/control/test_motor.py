@@ -29,7 +29,7 @@ def matrices(step: Zoh) -> tuple[np.ndarray, np.ndarray]:
 
 
 def test_the_paper_motor_has_the_golden_poles_and_gain():
-    assert (PAR4_MOTOR.K, PAR4_MOTOR.T1, PAR4_MOTOR.T2) == tuple(GOLDEN["plant"][name] for name in ("K", "T1", "T2"))
+    assert tuple(GOLDEN["plant"][name] for name in ("K", "T1", "T2")) == (PAR4_MOTOR.K, PAR4_MOTOR.T1, PAR4_MOTOR.T2)
     assert PAR4_MOTOR.poles.shape == (2,)
     assert np.allclose(PAR4_MOTOR.poles, GOLDEN["plant"]["poles"], rtol=1e-12)
     assert np.allclose(-1.0 / PAR4_MOTOR.poles[::-1].real, GOLDEN["plant"]["tau"], rtol=1e-12)

@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from app.ui.compute import Worker, make_pool
+from app.ui.compute import Worker, make_pools
 from app.ui.pacing import Paced
 
 
@@ -96,7 +96,7 @@ def test_a_cancelled_job_tells_nobody():
 def test_the_pool_computes_in_another_process():
     import os
 
-    pool = make_pool()
+    pool = make_pools().slow
     try:
         assert pool.submit(os.getpid).result(30) != os.getpid()
     finally:

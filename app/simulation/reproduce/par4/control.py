@@ -6,10 +6,10 @@ import math
 from dataclasses import replace
 
 from app.control import PAR4_MOTOR, PID_APPROX, PID_AUTO, Motor
-from app.control.loop_shaping import tune_loop
-from app.control.phase_margin import smallest_margin
-from app.control.reaction_curve import exact, paper_reaction_curve, real_poles
-from app.control.tuning_rules import paper as paper_rule
+from app.control.tuning.loop_shaping import tune_loop
+from app.control.tuning.phase_margin import smallest_margin
+from app.control.tuning.reaction_curve import exact, paper_reaction_curve, real_poles
+from app.control.tuning.rules import paper as paper_rule
 from app.simulation.reproduce.figure import Figure, Section
 
 ROUNDED = Motor(K=9.414, T1=3.586, T2=0.179)

@@ -1,0 +1,1 @@
+"""The control lab: settings, experiments and runs of one browser."""

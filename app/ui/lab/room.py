@@ -1,0 +1,82 @@
+"""The control lab of one browser, put together: settings on the right, plots and runs on the left."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import viser
+
+from app.ui.compute import Worker
+from app.ui.lab.desk import ControlDesk
+from app.ui.lab.run_book import RunBook
+from app.ui.lab.traps import TRAPS
+from app.ui.panels.lab.control_panel import ControlPanel
+from app.ui.panels.lab.motor_panel import MotorPanel
+from app.ui.panels.lab.run_panel import RunPanel
+from app.ui.panels.lab.run_settings_panel import variants
+from app.ui.panels.lab.study_panel import FrequencyPlots, ResponsePlot, StepPlots
+from app.ui.playback import Playback
+from app.ui.plots import PLOT_STYLE
+from app.ui.session import Session
+from app.ui.stage import PHONE_WIDTH_PX
+from app.ui.tab_bell import on_tab_opened
+
+WIDTH = 420
+
+PHONE_PLOT_PX = 140
+"""On a phone the plots are a section further down, so the response also stands above the sliders, and stays there."""
+
+
+class ControlRoom:
+    """Built when the tab `Control` is opened for the first time: whoever only drags the robot does not pay for it."""
+
+    def __init__(
+        self,
+        client: viser.ClientHandle,
+        session: Session,
+        tab: viser.GuiTabHandle,
+        quick: Worker,
+        slow: Callable[[Callable[[], None] | None], Worker],
+        tell: Callable[[str], None],
+    ) -> None:
+        self._client = client
+        self._session = session
+        self._tab = tab
+        self._quick = quick
+        self._slow = slow
+        self._tell = tell
+        self._runs: RunPanel | None = None
+        self._panel: viser.PanelHandle | None = None
+        on_tab_opened(client, "Control", self._open)
+
+    def close(self) -> None:
+        if self._runs is not None:
+            self._runs.close()
+
+    def _open(self) -> None:
+        if self._panel is None:
+            self._build()
+        else:
+            self._panel.expand()
+
+    def _build(self) -> None:
+        client, session = self._client, self._session
+        client.gui.add_html(PLOT_STYLE)
+        desk = ControlDesk(session, self._quick)
+        book = RunBook(session, self._slow(lambda: book.failed()), self._tell)
+        with self._tab:
+            if client.camera.image_width < PHONE_WIDTH_PX:
+                ResponsePlot(client.gui, desk, PHONE_PLOT_PX)
+            ControlPanel(client.gui, desk, lambda trap: book.request(*variants(desk.settings, TRAPS[trap].runs)))
+        self._panel = client.gui.add_panel()
+        with self._panel.add_tab("Step", viser.Icon.CHART_LINE):
+            StepPlots(client, desk)
+        with self._panel.add_tab("Frequency", viser.Icon.WAVE_SINE):
+            FrequencyPlots(client, desk)
+        with self._panel.add_tab("Run", viser.Icon.PLAYER_PLAY):
+            self._runs = RunPanel(client, desk, book, Playback(session), self._slow(None))
+        with self._panel.add_tab("Motor", viser.Icon.ENGINE):
+            motor = MotorPanel(client, desk, self._slow(lambda: motor.failed()))
+        self._panel.dock_left()
+        self._panel.set_width(WIDTH)
+        desk.open()

@@ -1,0 +1,1 @@
+"""Panels of the control lab; each knows the desk, never another panel."""

@@ -1,0 +1,154 @@
+"""The tab `Motor`: move it, record it, and find its model; or bring a recording of a real one."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Callable
+
+import numpy as np
+import viser
+
+from app.control.drives import DRIVES
+from app.control.identification.excitation import EXCITATIONS
+from app.control.identification.recordings import write_recording
+from app.control.motor import Motor
+from app.ui import theme
+from app.ui.compute import Worker
+from app.ui.downloads import send
+from app.ui.lab.desk import ControlDesk
+from app.ui.lab.jobs import Refusal
+from app.ui.lab.motor_jobs import Identified, MotorTest, read_and_identify, test_and_identify, thinned
+from app.ui.panels.lab.metrics_table import shown
+from app.ui.panels.text import small
+from app.ui.plots import Axes, Curve, Plot
+
+POINTS = 400
+TITLES = {excitation.title: name for name, excitation in EXCITATIONS.items()}
+
+
+class MotorPanel:
+    """Excitation, recording, result."""
+
+    def __init__(self, client: viser.ClientHandle, desk: ControlDesk, worker: Worker) -> None:
+        self._client = client
+        self._desk = desk
+        self._worker = worker
+        self._seed = 0
+        self._result: Identified | None = None
+        gui = client.gui
+        self._about = gui.add_html(small("Move the motor, record it, and let the output-error method find its model."))
+        self._add_test(gui)
+        self._bar = gui.add_progress_bar(100.0, animated=True, visible=False)
+        self._answer = gui.add_html("")
+        self._use = gui.add_button("Use this motor", icon=viser.Icon.CHECK, visible=False)
+        self._save = gui.add_button("Save recording as CSV", icon=viser.Icon.DOWNLOAD, color="gray", visible=False)
+        self._plots = MotorPlots(gui)
+        self._listen()
+
+    def _add_test(self, gui: viser.GuiApi) -> None:
+        drive = DRIVES[self._desk.settings.robot]
+        self._excitation = gui.add_dropdown("Signal", tuple(TITLES), initial_value=EXCITATIONS["prbs"].title)
+        self._explanation = gui.add_html(small(html.escape(EXCITATIONS["prbs"].explanation)))
+        self._volts = gui.add_slider("Voltage (V)", 0.5, 48.0, 0.5, drive.supply_v)
+        self._length = gui.add_slider("Duration (s)", 2.0, 120.0, 1.0, 60.0)
+        self._noise = gui.add_slider("Sensor noise", 0.0, 2.0, 0.05, 0.5, hint="Standard deviation, deg or mm")
+        self._record = gui.add_button("Record and identify", icon=viser.Icon.PLAYER_RECORD)
+        self._upload = gui.add_upload_button("Read a CSV file", icon=viser.Icon.UPLOAD, mime_type=".csv,.txt,text/csv")
+
+    def _listen(self) -> None:
+        @self._excitation.on_update
+        async def _(event: viser.GuiEvent[viser.GuiDropdownHandle[str]]) -> None:
+            self._explanation.content = small(html.escape(EXCITATIONS[TITLES[event.target.value]].explanation))
+
+        @self._record.on_click
+        async def _(_: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
+            self._seed += 1
+            name = TITLES[self._excitation.value]
+            test = MotorTest(name, self._volts.value, self._length.value, self._noise.value, self._seed)
+            settings = self._desk.settings
+            self._ask(test_and_identify, settings.robot, settings.hardware, test)
+
+        @self._upload.on_upload
+        async def _(event: viser.GuiEvent[viser.GuiUploadButtonHandle]) -> None:
+            self._ask(read_and_identify, event.target.value.name, event.target.value.content)
+
+        @self._use.on_click
+        async def _(_: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
+            if self._result is not None:
+                origin = f"Identified by you from {self._result.source}; Reset the lab brings the old one back."
+                self._desk.change(motor=self._result.found.motor, motor_origin=origin)
+
+        @self._save.on_click
+        async def _(_: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
+            if self._result is not None:
+                send(self._client, "recording.csv", write_recording(self._result.recording).encode())
+
+    def failed(self) -> None:
+        """The worker could not do it, and has said so."""
+        self._bar.visible = False
+
+    def _ask(self, job: Callable[..., Identified | Refusal], *arguments: object) -> None:
+        self._bar.visible = True
+        self._worker.request(self._receive, job, *arguments)
+
+    def _receive(self, result: Identified | Refusal) -> None:
+        self._bar.visible = False
+        if isinstance(result, Refusal):
+            color = theme.css(theme.WARNING)
+            self._answer.content = small(f'<b style="color:{color}">▲ {html.escape(result.reason)}</b>')
+            return
+        self._result = result
+        self._use.visible = self._save.visible = True
+        self._answer.content = result_table(result, DRIVES[self._desk.settings.robot].motor)
+        self._plots.show(result)
+
+
+class MotorPlots:
+    """Input, output beside the model's, and what is left between them."""
+
+    def __init__(self, gui: viser.GuiApi) -> None:
+        self._unit = "deg"
+        measured = Curve("measured", theme.REFERENCE, 1.5)
+        model = Curve("model", theme.ACTUAL, 2.0)
+        self._output = Plot(gui, self._axes("Position"), (measured, model), "Output", 220)
+        residual = Curve("model minus measured", theme.MARK, 1.0)
+        self._left = Plot(gui, self._axes("Residual"), (residual,), "Residual", 170)
+        volts = Axes("Time (s)", "Voltage (V)")
+        self._input = Plot(gui, volts, (Curve("voltage", theme.LEGS[0], 1.5),), "Input", 150)
+
+    def show(self, result: Identified) -> None:
+        recording, found = result.recording, result.found
+        if recording.unit != self._unit:
+            self._unit = recording.unit
+            self._output.rename(self._axes("Position"))
+            self._left.rename(self._axes("Residual"))
+        chosen = thinned(recording, POINTS)
+        t = found.t[chosen]
+        measured = found.model_output - found.residuals
+        self._output.show(t, measured[chosen], found.model_output[chosen])
+        self._left.show(t, found.residuals[chosen])
+        self._input.show(t, np.interp(t, recording.t, recording.u))
+
+    def _axes(self, name: str) -> Axes:
+        return Axes("Time (s)", f"{name} ({self._unit})")
+
+
+def result_table(result: Identified, known: Motor) -> str:
+    """HTML: each parameter with its 95 % interval, beside the value the lab started with."""
+    found = result.found
+    units = (f"{found.motor.unit}/(V s²)", "1/s", "1/s²")
+    rows = "".join(
+        f"<tr><td>{name} <span style='opacity:.65'>{unit}</span></td>"
+        f'<td style="text-align:right"><b>{shown(getattr(found.motor, name))}</b></td>'
+        f'<td style="text-align:right">{shown(low)} … {shown(high)}</td>'
+        f'<td style="text-align:right">{shown(getattr(known, name))}</td></tr>'
+        for name, unit, (low, high) in zip(("K", "T1", "T2"), units, found.confidence.tolist(), strict=True)
+    )
+    warnings = "".join(f"<div>▲ {html.escape(warning)}</div>" for warning in found.warnings)
+    return (
+        '<div style="padding:4px 12px 8px;font-size:0.82em"><b>'
+        f"{html.escape(result.source)}: fit {found.fit_percent:.2f} %</b>"
+        '<table style="width:100%;border-collapse:collapse;line-height:1.6;font-variant-numeric:tabular-nums">'
+        '<tr><th></th><th style="text-align:right">found</th><th style="text-align:right">95 % interval</th>'
+        f'<th style="text-align:right">known</th></tr>{rows}</table>{warnings}</div>'
+    )
