@@ -33,8 +33,10 @@ Derivative = Callable[[float, float, float, float], tuple[float, float]]
 """(error, state, error at the last full step, time since then) -> derivative part, rate of the state"""
 
 
-def simulate(motor: Motor, pid: Pid, u_max: float, step_s: float, references: Sequence[Sequence[float]]) -> Trace:
-    """One drive from rest at zero.
+def simulate(
+    motor: Motor, pid: Pid, u_max: float, step_s: float, references: Sequence[Sequence[float]], start: float = 0.0
+) -> Trace:
+    """One drive from rest at `start`.
 
     `references` holds three sequences of equal length, the set-point at `STAGES` of every step, in the motor's
     unit. Set-point weights are not part of the paper's loop and do not count.
@@ -48,7 +50,7 @@ def simulate(motor: Motor, pid: Pid, u_max: float, step_s: float, references: Se
         u = u_max if u > u_max else -u_max if u < -u_max else u
         return v, K * u - T1 * v - T2 * y, ki * e, xd_rate, u
 
-    y = v = xi = xd = ise = last = since = 0.0
+    y, v, xi, xd, ise, last, since = start, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     outputs, controls = [], []
     half, most, w1, w2, w3 = h / 2, 0.75 * h, 2 * h / 9, h / 3, 4 * h / 9
     for r1, r2, r3 in zip(*references, strict=True):

@@ -77,13 +77,13 @@ def follow_simulink(task: Task, pid: Pid, u_max: float, step_s: float = 0.01, ti
         raise TrackingError("The paper's simulation starts from rest; choose the sampled controller for another start.")
     _check_limit(u_max)
     robot, t = task.build(), sample_times(task.duration_s, step_s)
-    pose_ref, q_ref, _ = reference(robot, task, t)
+    pose_ref, q_ref, starts = reference(robot, task, t)
     factor = SHOWN[robot.joint_units[0]][1]
     stages = [factor * reference(robot, task, t + c * step_s)[1] for c in simulink_loop.STAGES]
     motor = DRIVES[task.robot].motor
     traces = [
-        simulink_loop.simulate(motor, pid, u_max, step_s, [stage[:, joint].tolist() for stage in stages])
-        for joint in range(q_ref.shape[1])
+        simulink_loop.simulate(motor, pid, u_max, step_s, [stage[:, joint].tolist() for stage in stages], start)
+        for joint, start in enumerate((starts * factor).tolist())
     ]
     q, u = (np.array(column).T for column in list(zip(*traces, strict=True))[:2])
     ise = np.array([trace.ise for trace in traces])

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from app.control import PAR4_MOTOR, PID_APPROX, PID_AUTO, Motor, Pid
@@ -20,6 +20,9 @@ METHODS: tuple[Method, ...] = ("backward Euler", "Tustin")
 KINDS: tuple[AntiWindup, ...] = ("none", "clamping", "back-calculation")
 APPROX = replace(PID_APPROX, n=100.0)
 ROUNDING = 1e-9
+PATIENT = settings(
+    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow]
+)
 
 
 class Outcome(NamedTuple):
@@ -67,7 +70,7 @@ def stable_cases(draw: st.DrawFn) -> Case:
     return Case(motor, pid, sampling, u_max, 1.0, min(duration, 3000 * sampling.period_s))
 
 
-@settings(max_examples=60, deadline=None)
+@PATIENT
 @given(stable_cases())
 def test_anti_windup_never_overshoots_more(case: Case):
     none, clamping, tracking = (case.outcome(kind) for kind in KINDS)
@@ -75,7 +78,7 @@ def test_anti_windup_never_overshoots_more(case: Case):
     assert tracking.overshoot <= none.overshoot + ROUNDING
 
 
-@settings(max_examples=60, deadline=None)
+@PATIENT
 @given(stable_cases())
 def test_where_windup_is_severe_clamping_never_costs_error(case: Case):
     """Beyond 30 % of overshoot. Below that the wound-up integral can be of help: it pushes a sluggish loop."""

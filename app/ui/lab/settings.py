@@ -84,7 +84,9 @@ def default_settings(robot: str) -> ControlSettings:
         setpoint=drive.setpoint,
         duration_s=3.0 if is_par4 else 1.0,
         response_time_s=0.2 if is_par4 else 0.08,
-        run=RunSettings(Tour(size_m=RUN_SIZES_M[robot], lap_s=100.0 if is_par4 else 10.0), as_in_paper=False),
+        run=RunSettings(
+            Tour(size_m=RUN_SIZES_M[robot], lap_s=100.0 if is_par4 else 10.0), "rest" if is_par4 else "smooth"
+        ),
     )
 
 

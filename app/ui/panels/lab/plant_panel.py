@@ -64,7 +64,7 @@ class PlantPanel:
     def _follow(self, settings: ControlSettings) -> None:
         title = DRIVES[settings.robot].title
         content = small(
-            f"<b>{html.escape(title)}</b>{mathml(motor_latex(settings.motor))}{html.escape(settings.motor_origin)}"
+            f"<b>{html.escape(title)}</b>{mathml(motor_latex(settings.motor))}<div>{html.escape(settings.motor_origin)}</div>"
         )
         if content != self._about.content:
             self._about.content = content
