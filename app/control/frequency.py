@@ -42,6 +42,10 @@ class OpenLoop:
     def poles(self) -> Complex:
         """(k,) closed-loop poles in rad/s; those of a sampled loop are mapped by ln(z) / h. The delay is left out:
         with it there are infinitely many."""
+        return self._poles
+
+    @cached_property
+    def _poles(self) -> Complex:
         if self.sampling is None:
             return np.roots(np.polyadd(*_characteristic(self.motor, self.pid))).astype(complex)
         roots = np.roots(np.polyadd(*_sampled_characteristic(self.pid, self.sampling, *self._plant))).astype(complex)
@@ -79,7 +83,7 @@ def _sampled_pid(pid: Pid, sampling: Sampling, z: Complex) -> Complex:
 def _characteristic(motor: Motor, pid: Pid) -> tuple[Array, Array]:
     """Denominator and numerator of the open loop in s."""
     denominator, numerator = _controller(pid, np.array([1.0, 0.0]), np.array([1.0]))
-    return np.polymul([1.0, motor.T1, motor.T2], denominator), motor.K * numerator
+    return np.convolve([1.0, motor.T1, motor.T2], denominator), motor.K * numerator
 
 
 def _sampled_characteristic(
@@ -91,7 +95,7 @@ def _sampled_characteristic(
     else:
         difference, total = np.array([1.0, -1.0]) / sampling.period_s, np.array([1.0, 0.0])
     denominator, numerator = _controller(pid, difference, total)
-    return np.polymul(plant_denominator, denominator), np.polymul(plant_numerator, numerator)
+    return np.convolve(plant_denominator, denominator), np.convolve(plant_numerator, numerator)
 
 
 def _controller(pid: Pid, top: Array, bottom: Array) -> tuple[Array, Array]:
@@ -105,6 +109,6 @@ def _controller(pid: Pid, top: Array, bottom: Array) -> tuple[Array, Array]:
         ideal = math.isinf(pid.n)
         parts.append((bottom if ideal else np.polyadd(bottom, top / pid.n), pid.kd * top))
     for pole, zero in parts:
-        numerator = np.polyadd(np.polymul(numerator, pole), np.polymul(denominator, zero))
-        denominator = np.polymul(denominator, pole)
+        numerator = np.polyadd(np.convolve(numerator, pole), np.convolve(denominator, zero))
+        denominator = np.convolve(denominator, pole)
     return denominator, numerator

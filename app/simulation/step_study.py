@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from app.control import Motor
 from app.control.frequency import OpenLoop
 from app.control.margins import Margins, margins
 from app.control.step_metrics import StepMetrics, step_metrics
@@ -80,9 +81,13 @@ def study(question: Question) -> Study:
     hardware = loop.hardware
     real_motor = loop.motor.loaded(hardware.inertia_factor, hardware.viscous)
     sampled = OpenLoop(real_motor, loop.pid, hardware.delay_s, loop.sampling)
-    omega = np.geomspace(*_frequency_range(continuous), 240)
+    ideal_margins = margins(continuous)
+    omega = np.geomspace(*_frequency_range(loop.motor, ideal_margins), 240)
     return Study(
-        board_response(question), ideal_response(question), _frequency(sampled, omega), _frequency(continuous, omega)
+        board_response(question),
+        ideal_response(question),
+        _frequency(sampled, omega, margins(sampled)),
+        _frequency(continuous, omega, ideal_margins),
     )
 
 
@@ -100,22 +105,40 @@ def board_response(question: Question) -> Response:
 
 
 def ideal_response(question: Question) -> Response:
-    """The continuous linear loop, by python-control: y = G Cr / (1 + G C) r, u = Cr / (1 + G C) r."""
-    import control
+    """The continuous linear loop, exactly: its state (y, v, integral, filter) under a constant set-point.
 
-    motor, pid, t = question.loop.motor, question.loop.pid, np.linspace(0.0, question.duration_s, 2 * POINTS + 1)
-    if pid.kd and math.isinf(pid.n):
-        pid = replace(pid, n=NEARLY_IDEAL * max(10.0, math.sqrt(motor.K * abs(pid.kp))))
-    G, C, Cr = motor.transfer_function(), pid.transfer_function(), pid.setpoint_transfer_function()
-    y = _forced(control.minreal(G * Cr / (1 + G * C), verbose=False), t, question.setpoint)
-    u = _forced(control.minreal(Cr / (1 + G * C), verbose=False), t, question.setpoint)
+    v' = K u - T1 v - T2 y,  u = kp (b r - y) + xi + d,  xi' = ki (r - y),  xd' = d = N (kd (c r - y) - xd)
+    """
+    motor, pid = question.loop.motor, question.loop.pid
+    t = np.linspace(0.0, question.duration_s, 2 * POINTS + 1)
+    n = pid.n if math.isfinite(pid.n) else NEARLY_IDEAL * max(10.0, math.sqrt(motor.K * abs(pid.kp)))
+    n = n if pid.kd else 0.0
+    control = np.array([-pid.kp - n * pid.kd, 0.0, 1.0, -n, pid.kp * pid.b + n * pid.kd * pid.c])
+    rates = np.array(
+        [
+            [0.0, 1.0, 0.0, 0.0, 0.0],
+            [-motor.T2, -motor.T1, 0.0, 0.0, 0.0] + motor.K * control,
+            [-pid.ki, 0.0, 0.0, 0.0, pid.ki],
+            [-n * pid.kd, 0.0, 0.0, -n, n * pid.kd * pid.c],
+            [0.0, 0.0, 0.0, 0.0, 0.0],
+        ]
+    )
+    states = _march(rates, np.array([0.0, 0.0, 0.0, 0.0, question.setpoint]), t)
+    y, u = np.ascontiguousarray(states[:, 0]), states @ control
     return _thinned(t, y, u, step_metrics(t, y, question.setpoint, u))
 
 
-def _forced(system: Any, t: Array, height: float) -> Array:
-    import control
+def _march(rates: Array, state: Array, t: Array) -> Array:
+    """(k, n) states of x' = A x from `state` on, at evenly spaced times t (k,)."""
+    from scipy.linalg import expm
 
-    return height * np.asarray(control.step_response(system, t).outputs)
+    step = expm(rates * (t[1] - t[0]))
+    states = np.empty((len(t), len(state)))
+    with np.errstate(over="ignore", invalid="ignore"):
+        for k in range(len(t)):
+            states[k] = state
+            state = step @ state
+    return states
 
 
 def _thinned(t: Array, y: Array, u: Array, metrics: StepMetrics) -> Response:
@@ -124,14 +147,13 @@ def _thinned(t: Array, y: Array, u: Array, metrics: StepMetrics) -> Response:
     return Response(*(np.ascontiguousarray(curve[::every]) for curve in (t, y, u)), metrics=metrics)
 
 
-def _frequency_range(loop: OpenLoop) -> tuple[float, float]:
+def _frequency_range(motor: Motor, found: Margins) -> tuple[float, float]:
     """Two decades below the crossover to two above."""
-    crossover = margins(loop).crossover_rad_s
-    middle = crossover if math.isfinite(crossover) else max(1.0, loop.motor.T1)
+    middle = found.crossover_rad_s if math.isfinite(found.crossover_rad_s) else max(1.0, motor.T1)
     return middle / 100.0, middle * 100.0
 
 
-def _frequency(loop: OpenLoop, omega: Array) -> Frequency:
+def _frequency(loop: OpenLoop, omega: Array, found: Margins) -> Frequency:
     L = np.where(omega < loop.highest_rad_s, loop.response(omega), np.nan)
     gain_db = 20.0 * np.log10(np.abs(L))
     phase = np.full_like(omega, np.nan)
@@ -139,4 +161,4 @@ def _frequency(loop: OpenLoop, omega: Array) -> Frequency:
     phase[known] = np.degrees(np.unwrap(np.angle(L[known])))
     if known.any():
         phase[known] -= 360.0 * math.ceil((phase[known][0] - 45.0) / 360.0)
-    return Frequency(omega, gain_db, phase, margins(loop), loop.poles())
+    return Frequency(omega, gain_db, phase, found, loop.poles())

@@ -33,16 +33,17 @@ class Pools(NamedTuple):
 def make_pools() -> Pools:
     """Workers that leave the interrupt key to the server and the processor to the event loop."""
     cores = os.cpu_count() or 2
-    return Pools(quick=_make_pool(max(1, min(2, cores - 1))), slow=_make_pool(max(1, min(4, cores - 1))))
+    return Pools(quick=_make_pool(max(1, min(2, cores - 1)), 0), slow=_make_pool(max(1, min(4, cores - 1)), 5))
 
 
-def _make_pool(workers: int) -> ProcessPoolExecutor:
-    return ProcessPoolExecutor(workers, multiprocessing.get_context("spawn"), initializer=_start_worker)
+def _make_pool(workers: int, niceness: int) -> ProcessPoolExecutor:
+    context = multiprocessing.get_context("spawn")
+    return ProcessPoolExecutor(workers, context, initializer=_start_worker, initargs=(niceness,))
 
 
-def _start_worker() -> None:
+def _start_worker(niceness: int) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    os.nice(5)
+    os.nice(niceness)
 
 
 class Worker:

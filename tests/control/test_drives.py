@@ -58,7 +58,7 @@ def test_the_suggested_step_stays_within_the_joint_limits(name: str):
 def test_the_declared_motors_have_the_figures_of_their_notes(name: str, speed: float, time_constant_s: float):
     drive = DRIVES[name]
     assert drive.motor.K / drive.motor.T1 * drive.supply_v == pytest.approx(speed, rel=0.01)
-    assert drive.motor.T1 == pytest.approx(1.0 / time_constant_s, rel=0.02)
+    assert pytest.approx(1.0 / time_constant_s, rel=0.02) == drive.motor.T1
     assert f"{speed:g}" in drive.note and "Declared" in drive.note
     assert drive.motor.T2 == 0.0
 

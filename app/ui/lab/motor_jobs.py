@@ -39,7 +39,7 @@ class Identified(NamedTuple):
     """Where the recording comes from, for students."""
 
 
-def test_and_identify(robot: str, hardware: Hardware, test: MotorTest) -> Identified | Refusal:
+def move_and_identify(robot: str, hardware: Hardware, test: MotorTest) -> Identified | Refusal:
     """Move the robot's own motor, with the imperfections that are switched on, and find its model."""
     try:
         recording = record(robot, hardware, test)

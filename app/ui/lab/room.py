@@ -79,4 +79,5 @@ class ControlRoom:
             motor = MotorPanel(client, desk, self._slow(lambda: motor.failed()))
         self._panel.dock_left()
         self._panel.set_width(WIDTH)
+        desk.answered.connect(lambda _: client.flush())
         desk.open()

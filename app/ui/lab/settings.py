@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from app.control import PID_AUTO, Motor, Pid
 from app.control.drives import DRIVES
 from app.control.sampled_pid import Sampling
-from app.control.tuning.methods import TABLE_2, TUNER
+from app.control.tuning.methods import METHODS, TABLE_2, TUNER, Wish
 from app.motion import Tour
 from app.simulation.hardware import Hardware
 from app.simulation.sampled_loop import DriveLoop
@@ -73,17 +73,20 @@ def default_settings(robot: str) -> ControlSettings:
     """A good starting point: the drive as its board runs it, without disturbances."""
     drive = DRIVES[robot]
     is_par4 = robot == "par4"
+    response_time_s, transient = 0.2 if is_par4 else 0.08, 0.8
+    tuner = METHODS[TUNER].tune(drive.motor, Wish(response_time_s, transient))
     return ControlSettings(
         robot=robot,
         motor=drive.motor,
         motor_origin=drive.note,
-        pid=PID_AUTO if is_par4 else Pid(1.0, 0.5, 0.05, 100.0),
+        pid=PID_AUTO if is_par4 else tuner.pid,
         tuning=TABLE_2 if is_par4 else TUNER,
         sampling=Sampling(drive.period_s),
         hardware=Hardware(supply_v=drive.supply_v, sensor_range=drive.sensor_range),
         setpoint=drive.setpoint,
         duration_s=3.0 if is_par4 else 1.0,
-        response_time_s=0.2 if is_par4 else 0.08,
+        response_time_s=response_time_s,
+        transient=transient,
         run=RunSettings(
             Tour(size_m=RUN_SIZES_M[robot], lap_s=100.0 if is_par4 else 10.0), "rest" if is_par4 else "smooth"
         ),

@@ -18,7 +18,7 @@ class Trap:
     text: str
     """What is seen, and what to change."""
     set_up: Callable[[ControlSettings], ControlSettings]
-    """From the robot's defaults."""
+    """From the robot's defaults, with the motor that is in use."""
     runs: tuple[tuple[str, str], ...] = ()
     """(tuning, start) of robot runs that belong to it."""
 
@@ -33,7 +33,9 @@ def _windup(settings: ControlSettings) -> ControlSettings:
 
 
 def _kick(settings: ControlSettings) -> ControlSettings:
-    return changed(settings, tuning=BY_HAND, n=400.0, supply_v=math.inf, duration_s=settings.duration_s / 2.0)
+    """A derivative that is hardly filtered."""
+    quick = {"tuning": BY_HAND, "kd": max(2.0 * settings.pid.kd, 0.01 * settings.pid.kp), "n": 1000.0}
+    return changed(settings, **quick, supply_v=math.inf, duration_s=settings.duration_s / 2.0)
 
 
 def _slow(settings: ControlSettings) -> ControlSettings:
@@ -41,8 +43,8 @@ def _slow(settings: ControlSettings) -> ControlSettings:
 
 
 def _noise(settings: ControlSettings) -> ControlSettings:
-    pid = settings.pid
-    return changed(settings, tuning=BY_HAND, noise=0.2, adc_bits=12, kd=1.5 * pid.kd, n=400.0)
+    strong = max(1.5 * settings.pid.kd, 0.02 * settings.pid.kp)
+    return changed(settings, tuning=BY_HAND, noise=0.002 * settings.setpoint, kd=strong, n=400.0)
 
 
 def _ranking(settings: ControlSettings) -> ControlSettings:
@@ -52,17 +54,18 @@ def _ranking(settings: ControlSettings) -> ControlSettings:
 TRAPS: dict[str, Trap] = {
     "Windup": Trap(
         "The motor stands at its limit for long, and meanwhile the integral keeps growing: it then overshoots until "
-        "the integral has shrunk again. Keep this as baseline, then choose <b>Anti-windup: clamping</b> below.",
+        "the integral has shrunk again. Keep this as baseline, then choose <b>Anti-windup: clamping</b> under Program on "
+        "the board.",
         _windup,
     ),
     "Derivative kick": Trap(
         "When the set-point jumps, so does its derivative: look at the first spike of the control signal. Tick "
-        "<b>Derivative on measurement</b> and it is gone.",
+        "<b>Derivative on measurement</b> under Program on the board, and it is gone.",
         _kick,
     ),
     "Too slow sampling": Trap(
-        "Between two looks at the sensor the controller is blind. Shorten the <b>Period</b> and watch the phase "
-        "margin in the tab Frequency come back.",
+        "Between two looks at the sensor the controller is blind. Shorten the <b>Period</b> under Program on "
+        "the board and watch the phase margin come back.",
         _slow,
     ),
     "Noise and a large kd": Trap(
@@ -85,7 +88,6 @@ def traps_for(robot: str) -> dict[str, Trap]:
 
 
 def entered(name: str, settings: ControlSettings) -> ControlSettings:
-    """The settings of a trap, starting from the robot's defaults with the gains it has now."""
+    """The settings of a trap."""
     fresh = replace(default_settings(settings.robot), motor=settings.motor, motor_origin=settings.motor_origin)
-    fresh = replace(fresh, pid=fresh.pid if settings.robot == "par4" else settings.pid)
     return TRAPS[name].set_up(fresh)

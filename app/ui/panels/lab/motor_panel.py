@@ -17,7 +17,7 @@ from app.ui.compute import Worker
 from app.ui.downloads import send
 from app.ui.lab.desk import ControlDesk
 from app.ui.lab.jobs import Refusal
-from app.ui.lab.motor_jobs import Identified, MotorTest, read_and_identify, test_and_identify, thinned
+from app.ui.lab.motor_jobs import Identified, MotorTest, move_and_identify, read_and_identify, thinned
 from app.ui.panels.lab.metrics_table import shown
 from app.ui.panels.text import small
 from app.ui.plots import Axes, Curve, Plot
@@ -66,7 +66,7 @@ class MotorPanel:
             name = TITLES[self._excitation.value]
             test = MotorTest(name, self._volts.value, self._length.value, self._noise.value, self._seed)
             settings = self._desk.settings
-            self._ask(test_and_identify, settings.robot, settings.hardware, test)
+            self._ask(move_and_identify, settings.robot, settings.hardware, test)
 
         @self._upload.on_upload
         async def _(event: viser.GuiEvent[viser.GuiUploadButtonHandle]) -> None:
