@@ -15,8 +15,8 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
-import control
 import numpy as np
 import tyro
 
@@ -28,6 +28,7 @@ from app.simulation import circle_tracking, sampled_loop, simulink_loop
 from app.simulation.hardware import Hardware
 from app.simulation.sampled_loop import DriveLoop
 from app.simulation.step_study import Question, study
+from tests.support.oracles import control
 from tests.support.plain_loops import PlainSimulinkLoop, numpy_ode3, numpy_sampled, object_sampled
 
 Array = np.ndarray
@@ -141,7 +142,7 @@ def sampled_mode(circle: Circle, pid: Pid, u_max: float, repeats: int) -> dict[s
     return found
 
 
-def closed_loop(pid: Pid) -> control.StateSpace:
+def closed_loop(pid: Pid) -> Any:
     """Backward Euler, put together by python-control."""
     gain = pid.n * H
     law = control.tf([pid.kp], [1.0], H) + control.tf([pid.ki * H, 0.0], [1.0, -1.0], H)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
-import control
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
@@ -18,6 +18,7 @@ from app.control.sampled_pid import Method, Sampling
 from app.simulation.hardware import Hardware
 from app.simulation.sampled_loop import DriveLoop, simulate
 from tests.robots.golden import golden
+from tests.support.oracles import control
 
 GOLDEN = golden("motor_steps")
 APPROX = replace(PID_APPROX, n=100.0)
@@ -43,7 +44,7 @@ def loops(draw: st.DrawFn, sampled: bool) -> OpenLoop:
     return OpenLoop(motor, pid, 0.0, Sampling(period, draw(st.sampled_from(METHODS))))
 
 
-def parts(loop: OpenLoop) -> tuple[control.TransferFunction, list[control.TransferFunction]]:
+def parts(loop: OpenLoop) -> tuple[Any, list[Any]]:
     """Plant, and the parts of the controller that add up, as python-control objects."""
     pid, plant = loop.pid, loop.motor.transfer_function()
     if loop.sampling is None:
@@ -59,7 +60,7 @@ def parts(loop: OpenLoop) -> tuple[control.TransferFunction, list[control.Transf
     return control.sample_system(plant, h), law
 
 
-def by_control(loop: OpenLoop) -> control.StateSpace:
+def by_control(loop: OpenLoop) -> Any:
     """The open loop in state space, where python-control keeps its digits."""
     plant, law = parts(loop)
     return control.ss(plant) * sum(map(control.ss, law[1:]), control.ss(law[0]))
@@ -94,7 +95,7 @@ def test_sampled_margins_are_those_of_a_dense_grid(loop: OpenLoop):
     crossed = np.flatnonzero(np.diff(np.sign(np.abs(L) - 1.0)))
     phase_margins = [math.remainder(math.degrees(np.angle(L[k])) - 180.0, 360.0) for k in crossed]
     assert found.phase_margin_deg == pytest.approx(min(phase_margins, key=abs, default=math.inf), abs=0.1)
-    turned = [k for k in np.flatnonzero(np.diff(np.sign(L.imag))) if L[k].real < 0.0]
+    turned = [k for k in np.flatnonzero(np.diff(np.sign(np.imag(L)))) if L[k].real < 0.0]
     nearest = min((float(-1.0 / L[k].real) for k in turned), key=lambda gain: abs(math.log(gain)), default=math.inf)
     assert found.gain_margin == pytest.approx(nearest, rel=3e-3)
     if len(crossed):

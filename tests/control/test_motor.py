@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import control
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
-from scipy.signal import cont2discrete
 
 from app.control import PAR4_MOTOR, Motor
 from app.control.motor import Zoh
 from tests.robots.golden import golden
+from tests.support.oracles import control, signal
 
 GOLDEN = golden("motor_steps")
 MOTORS = st.builds(
@@ -92,7 +91,7 @@ def test_a_step_of_one_volt_passes_through_the_golden_samples():
 @given(MOTORS, PERIODS)
 def test_the_state_step_is_scipys(motor: Motor, period: float):
     continuous = (np.array([[0.0, 1.0], [-motor.T2, -motor.T1]]), np.array([[0.0], [motor.K]]))
-    A, B, *_ = cont2discrete((*continuous, np.eye(2), np.zeros((2, 1))), period, method="zoh")
+    A, B, *_ = signal.cont2discrete((*continuous, np.eye(2), np.zeros((2, 1))), period, method="zoh")
     ours_A, ours_B = matrices(motor.zoh(period))
     assert np.allclose(ours_A, A, rtol=1e-9, atol=1e-12)
     assert np.allclose(ours_B, B[:, 0], rtol=1e-9, atol=1e-12)

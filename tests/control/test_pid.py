@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-import control
 import numpy as np
 import pytest
 from hypothesis import given
@@ -13,6 +12,7 @@ from hypothesis import strategies as st
 
 from app.control import PAR4_MOTOR, PID_APPROX, PID_AUTO, Pid
 from tests.robots.golden import golden
+from tests.support.oracles import control
 
 GOLDEN = golden("motor_steps")
 GAINS = st.floats(0.01, 100.0)
@@ -79,7 +79,7 @@ def test_the_papers_controllers():
 def test_the_papers_loops_have_the_golden_poles_and_margins(key: str, pid: Pid):
     loop = PAR4_MOTOR.transfer_function() * pid.transfer_function()
     poles = np.sort_complex(control.feedback(loop, 1).poles())
-    expected = np.sort_complex([complex(*pole) for pole in GOLDEN[key]["closed_loop_poles"]])
+    expected = np.sort_complex(np.array([complex(*pole) for pole in GOLDEN[key]["closed_loop_poles"]]))
     assert np.allclose(poles, expected, rtol=1e-6, atol=1e-9)
     _, phase_margin, _, crossover = control.margin(loop)
     assert phase_margin == pytest.approx(GOLDEN[key]["phase_margin_deg"], abs=1e-6)

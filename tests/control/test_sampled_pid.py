@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.signal import lfilter
 
 from app.control import PID_AUTO, Pid
 from app.control.sampled_pid import AntiWindup, Method, Sampling, sampled_pid
+from tests.support.oracles import signal
 
 METHODS: tuple[Method, ...] = ("backward Euler", "Tustin")
 ANTI_WINDUPS: tuple[AntiWindup, ...] = ("none", "clamping", "back-calculation")
@@ -45,9 +45,9 @@ def by_filters(pid: Pid, sampling: Sampling, r: np.ndarray, y: np.ndarray) -> np
         top, bottom = np.array([2.0, -2.0]) / h, np.array([1.0, 1.0])
     else:
         top, bottom = np.array([1.0, -1.0]) / h, np.array([1.0, 0.0])
-    u = pid.kp * (pid.b * r - y) + lfilter(pid.ki * bottom, top, r - y)
+    u = pid.kp * (pid.b * r - y) + signal.lfilter(pid.ki * bottom, top, r - y)
     below = bottom if math.isinf(pid.n) else bottom + top / pid.n
-    return u + lfilter(pid.kd * top, below, pid.c * r - y)
+    return u + signal.lfilter(pid.kd * top, below, pid.c * r - y)
 
 
 @given(PIDS, SAMPLINGS, SEEDS)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 
-import control
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from app.control.step_metrics import StepMetrics, step_metrics
+from tests.support.oracles import control
 
 SETPOINTS = st.sampled_from([1.0, 25.0, -40.0])
 

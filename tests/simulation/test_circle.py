@@ -7,7 +7,6 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
-import control
 import numpy as np
 import pytest
 
@@ -15,6 +14,7 @@ from app.control import PAR4_MOTOR, PID_APPROX, PID_AUTO, Pid
 from app.robots import make_robot
 from app.simulation import Run, Task, TrackingError, circle_tracking, follow_simulink
 from tests.robots.golden import golden
+from tests.support.oracles import control
 from tests.support.plain_loops import numpy_ode3, numpy_sampled
 
 CONTROLLERS = {"auto": PID_AUTO, "approx": PID_APPROX}

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-import control
 import numpy as np
 import pytest
 from hypothesis import given
@@ -15,6 +14,7 @@ from app.control import PAR4_MOTOR, PID_AUTO, Motor
 from app.control.sampled_pid import Sampling
 from app.simulation.hardware import FINE_STEP_S, MAX_DELAY_S, Hardware, sensor, shaft
 from app.simulation.sampled_loop import DriveLoop, fewest_substeps, simulate
+from tests.support.oracles import control
 
 H = 0.001
 FREE = Motor(K=1000.0, T1=20.0)

@@ -30,7 +30,7 @@ HEAD = {
 def made(name: str, count: int = 50) -> Run:
     """A run whose joints follow a small circle late by a tenth of a lap."""
     robot = make_robot(name)
-    t = 0.01 * np.arange(count)
+    t = np.arange(count, dtype=float) * 0.01
     tour = Tour(size_m=0.03, lap_s=0.01 * count)
     rng = np.random.default_rng(5)
     poses, late = tour.poses(robot, t), tour.poses(robot, t - 0.001 * count)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-import control
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -19,6 +18,7 @@ from app.simulation.hardware import Hardware
 from app.simulation.sampled_loop import DriveLoop
 from app.simulation.step_study import MAX_PERIODS, Question, Response, Study, board_response, study
 from tests.robots.golden import golden
+from tests.support.oracles import control
 
 GOLDEN = golden("motor_steps")
 APPROX = replace(PID_APPROX, n=100.0)
@@ -108,7 +108,7 @@ def test_margins_and_poles_are_golden_for_board_and_ideal(board: str, ideal: str
         assert found.crossover_rad_s == pytest.approx(expected["w_cross"], rel=1e-6)
         assert found.gain_margin == pytest.approx(float(expected["gain_margin"]), rel=1e-5)
         assert found.stable
-    poles = np.sort_complex([complex(*pole) for pole in GOLDEN[ideal]["closed_loop_poles"]])
+    poles = np.sort_complex(np.array([complex(*pole) for pole in GOLDEN[ideal]["closed_loop_poles"]]))
     assert np.allclose(np.sort_complex(answer.ideal_frequency.poles), poles, rtol=1e-6)
 
 

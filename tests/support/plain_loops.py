@@ -10,9 +10,9 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import cont2discrete
 
 from app.control import Motor, Pid
+from tests.support.oracles import signal
 
 Array = NDArray[np.float64]
 
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 def discrete_plant(motor: Motor, period_s: float) -> tuple[Array, Array]:
     """A (2, 2) and B (2,) of the state (position, speed) behind a hold, by scipy."""
     A, B = np.array([[0.0, 1.0], [-motor.T2, -motor.T1]]), np.array([[0.0], [motor.K]])
-    A, B, *_ = cont2discrete((A, B, np.eye(2), np.zeros((2, 1))), period_s, method="zoh")
+    A, B, *_ = signal.cont2discrete((A, B, np.eye(2), np.zeros((2, 1))), period_s, method="zoh")
     return A, B[:, 0]
 
 

@@ -18,10 +18,14 @@ from app.ui.panels.lab.study_panel import FrequencyPlots, ResponsePlot, StepPlot
 from app.ui.playback import Playback
 from app.ui.plots import PLOT_STYLE
 from app.ui.session import Session
-from app.ui.stage import PHONE_WIDTH_PX
 from app.ui.tab_bell import on_tab_opened
 
 WIDTH = 420
+ROOM_FOR_BOTH_PX = 800
+"""Width of the picture of the robot, before the plots take their part of it."""
+
+PHONE_PICTURE_PX = 450
+"""A narrower picture of the robot is a phone's; a tablet's is wider even beside the panels."""
 
 PHONE_PLOT_PX = 140
 """On a phone the plots are a section further down, so the response also stands above the sliders, and stays there."""
@@ -59,13 +63,21 @@ class ControlRoom:
         else:
             self._panel.expand()
 
+    def _place(self, panel: viser.PanelHandle) -> None:
+        """On the left, where the robot keeps enough room beside it; on a tablet below the settings."""
+        if self._client.camera.image_width < ROOM_FOR_BOTH_PX:
+            panel.dock_below(self._client.gui.main_panel)
+        else:
+            panel.dock_left()
+            panel.set_width(WIDTH)
+
     def _build(self) -> None:
         client, session = self._client, self._session
         client.gui.add_html(PLOT_STYLE)
         desk = ControlDesk(session, self._quick)
         book = RunBook(session, self._slow(lambda: book.failed()), self._tell)
         with self._tab:
-            if client.camera.image_width < PHONE_WIDTH_PX:
+            if client.camera.image_width < PHONE_PICTURE_PX:
                 ResponsePlot(client.gui, desk, PHONE_PLOT_PX)
             ControlPanel(client.gui, desk, lambda trap: book.request(*variants(desk.settings, TRAPS[trap].runs)))
         self._panel = client.gui.add_panel()
@@ -77,7 +89,6 @@ class ControlRoom:
             self._runs = RunPanel(client, desk, book, Playback(session), self._slow(None))
         with self._panel.add_tab("Motor", viser.Icon.ENGINE):
             motor = MotorPanel(client, desk, self._slow(lambda: motor.failed()))
-        self._panel.dock_left()
-        self._panel.set_width(WIDTH)
+        self._place(self._panel)
         desk.answered.connect(lambda _: client.flush())
         desk.open()

@@ -54,8 +54,8 @@ def _ranking(settings: ControlSettings) -> ControlSettings:
 TRAPS: dict[str, Trap] = {
     "Windup": Trap(
         "The motor stands at its limit for long, and meanwhile the integral keeps growing: it then overshoots until "
-        "the integral has shrunk again. Keep this as baseline, then choose <b>Anti-windup: clamping</b> under Program on "
-        "the board.",
+        "the integral has shrunk again. Keep this as baseline, then choose <b>Anti-windup: clamping</b> under Program "
+        "on the board.",
         _windup,
     ),
     "Derivative kick": Trap(

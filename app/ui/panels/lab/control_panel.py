@@ -24,6 +24,7 @@ class ControlPanel:
     def __init__(self, gui: viser.GuiApi, desk: ControlDesk, run_all: Callable[[str], None]) -> None:
         self._desk = desk
         self._run_all = run_all
+        gui.add_html(small("The other panel has the plots, runs on the robot, and a test of the motor."))
         ExperimentPanel(gui, desk)
         GainsPanel(gui, desk)
         self._add_baseline(gui)

@@ -13,6 +13,7 @@ from app.ui.lab.desk import ControlDesk
 from app.ui.lab.jobs import Answer
 from app.ui.lab.settings import BY_HAND, ControlSettings
 from app.ui.panels.lab.log_slider import LogSlider
+from app.ui.panels.lab.metrics_table import shown
 from app.ui.panels.options import show_options
 from app.ui.panels.text import small
 from app.ui.viser_adapter import show_value
@@ -99,9 +100,11 @@ class GainsPanel:
         method = METHODS.get(self._desk.settings.tuning)
         unit = self._desk.settings.motor.unit
         text = method.explanation if method else f"Your own gains, in volts per {unit}."
+        pid = self._desk.settings.pid
         content = small(html.escape(text)) + (small(formulas(method.latex)) if method and method.latex else "")
         if answer is not None and answer.note and answer.settings.tuning == self._desk.settings.tuning:
             color = theme.css(theme.WARNING) if answer.refused else "inherit"
             content += small(f'<b style="color:{color}">{html.escape(answer.note)}</b>')
+        content += small(f"Ideal form: Ti = {shown(pid.Ti)} s, Td = {shown(pid.Td)} s")
         if content != self._about.content:
             self._about.content = content

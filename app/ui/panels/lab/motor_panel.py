@@ -20,7 +20,7 @@ from app.ui.lab.jobs import Refusal
 from app.ui.lab.motor_jobs import Identified, MotorTest, move_and_identify, read_and_identify, thinned
 from app.ui.panels.lab.metrics_table import shown
 from app.ui.panels.text import small
-from app.ui.plots import Axes, Curve, Plot
+from app.ui.plots import Axes, Curve, Plot, csv_table
 
 POINTS = 400
 TITLES = {excitation.title: name for name, excitation in EXCITATIONS.items()}
@@ -42,6 +42,7 @@ class MotorPanel:
         self._answer = gui.add_html("")
         self._use = gui.add_button("Use this motor", icon=viser.Icon.CHECK, visible=False)
         self._save = gui.add_button("Save recording as CSV", icon=viser.Icon.DOWNLOAD, color="gray", visible=False)
+        self._save_fit = gui.add_button("Save fit as CSV", icon=viser.Icon.DOWNLOAD, color="gray", visible=False)
         self._plots = MotorPlots(gui)
         self._listen()
 
@@ -83,6 +84,11 @@ class MotorPanel:
             if self._result is not None:
                 send(self._client, "recording.csv", write_recording(self._result.recording).encode())
 
+        @self._save_fit.on_click
+        async def _(_: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
+            if self._result is not None:
+                send(self._client, "fit.csv", fit_csv(self._result).encode())
+
     def failed(self) -> None:
         """The worker could not do it, and has said so."""
         self._bar.visible = False
@@ -98,7 +104,7 @@ class MotorPanel:
             self._answer.content = small(f'<b style="color:{color}">▲ {html.escape(result.reason)}</b>')
             return
         self._result = result
-        self._use.visible = self._save.visible = True
+        self._use.visible = self._save.visible = self._save_fit.visible = True
         self._answer.content = result_table(result, DRIVES[self._desk.settings.robot].motor)
         self._plots.show(result)
 
@@ -131,6 +137,14 @@ class MotorPlots:
 
     def _axes(self, name: str) -> Axes:
         return Axes("Time (s)", f"{name} ({self._unit})")
+
+
+def fit_csv(result: Identified) -> str:
+    """Measured output, the model's, and the residual, at full rate."""
+    found, unit = result.found, result.recording.unit
+    head = ["t_s", f"measured_{unit}", f"model_{unit}", f"residual_{unit}"]
+    measured = found.model_output - found.residuals
+    return csv_table(head, np.column_stack([found.t, measured, found.model_output, found.residuals]))
 
 
 def result_table(result: Identified, known: Motor) -> str:

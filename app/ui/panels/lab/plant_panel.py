@@ -40,7 +40,7 @@ class Imperfection:
 IMPERFECTIONS = (
     Imperfection("supply_v", "Supply limit (V)", 12.0, 100.0, 0.5, low=1.0, off=math.inf, hint="100 % pulse width"),
     Imperfection("pwm_steps", "PWM steps", 255, 1023, 1, low=2, hint="8 bits have 255"),
-    Imperfection("adc_bits", "Sensor (bits)", 10, 16, 1, low=6, hint="STM32F4: 12 bits, Arduino Uno: 10 bits"),
+    Imperfection("adc_bits", "Sensor (bits)", 10, 20, 1, low=6, hint="STM32F4: 12 bits, Arduino Uno: 10 bits"),
     Imperfection("noise", "Noise (UNIT)", 0.1, 1.0, 0.01, hint="Standard deviation of the reading"),
     Imperfection("delay_s", "Delay (ms)", 20.0, 200.0, 1.0, per_si=1e3, hint="From computed to applied voltage"),
     Imperfection("coulomb_v", "Dry friction (V)", 0.5, 4.0, 0.05, hint="Voltage at which the motor begins to turn"),
@@ -116,7 +116,7 @@ class ImperfectionRow:
     def _shown(self, settings: ControlSettings) -> float:
         value = getattr(settings.hardware, self._one.name) * self._one.per_si
         if not self._is_on(settings):
-            value = self._one.switched_on
+            value = DRIVES[settings.robot].adc_bits if self._one.name == "adc_bits" else self._one.switched_on
         return type(self._one.step)(min(max(value, self._one.low), self._one.high))
 
 
