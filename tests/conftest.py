@@ -9,10 +9,14 @@ from contextlib import ExitStack
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as `app.cli` does, before anything loads NumPy
 
 import pytest
+from hypothesis import settings
 from playwright.sync_api import Browser, Page, sync_playwright
 
 from tests.support.browser import CHROMIUM, DESKTOP, PHONE, PageFactory, Screen, launch, new_page
 from tests.support.server import RunningServer, ServerFactory, running_deltalab
+
+settings.register_profile("unhurried", deadline=None)  # speed lives in the benchmarks
+settings.load_profile("unhurried")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -110,7 +110,7 @@ def ideal_response(question: Question) -> Response:
     v' = K u - T1 v - T2 y,  u = kp (b r - y) + xi + d,  xi' = ki (r - y),  xd' = d = N (kd (c r - y) - xd)
     """
     motor, pid = question.loop.motor, question.loop.pid
-    t = np.linspace(0.0, question.duration_s, 2 * POINTS + 1)
+    t = np.linspace(0.0, question.duration_s, 6 * POINTS + 1)
     n = pid.n if math.isfinite(pid.n) else NEARLY_IDEAL * max(10.0, math.sqrt(motor.K * abs(pid.kp)))
     n = n if pid.kd else 0.0
     control = np.array([-pid.kp - n * pid.kd, 0.0, 1.0, -n, pid.kp * pid.b + n * pid.kd * pid.c])

@@ -15,6 +15,7 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -63,13 +64,14 @@ class Circle:
         return H * np.arange(round(self.duration_s / H))
 
 
-def seconds(act: Callable[[], object], repeats: int) -> float:
-    """Least time of a few runs."""
-    best = math.inf
+def seconds(repeats: int, *acts: Callable[[], object]) -> list[float]:
+    """Least time of each in a few runs, in turns so that a busy moment hits all alike."""
+    best = [math.inf] * len(acts)
     for _ in range(repeats):
-        start = time.perf_counter()
-        act()
-        best = min(best, time.perf_counter() - start)
+        for k, act in enumerate(acts):
+            start = time.perf_counter()
+            act()
+            best[k] = min(best[k], time.perf_counter() - start)
     return best
 
 
@@ -99,12 +101,13 @@ def paper_mode(circle: Circle, pid: Pid, repeats: int) -> dict[str, float | str]
 
     assert np.allclose(ours(), in_numpy(), atol=1e-8)
     assert np.allclose(ours(), in_objects(), atol=1e-8)
-    least = seconds(ours, repeats)
+    whole = partial(circle_tracking, pid, "paper", u_max, duration_s=circle.duration_s)
+    run_s, loop_s, numpy_s, objects_s = seconds(repeats, whole, ours, in_numpy, in_objects)
     return {
-        "whole_run_s": seconds(lambda: circle_tracking(pid, "paper", u_max, duration_s=circle.duration_s), repeats),
-        "loop_s": least,
-        "numpy_ratio": seconds(in_numpy, 2) / least,
-        "objects_ratio": seconds(in_objects, 2) / least,
+        "whole_run_s": run_s,
+        "loop_s": loop_s,
+        "numpy_ratio": numpy_s / loop_s,
+        "objects_ratio": objects_s / loop_s,
     }
 
 
@@ -124,13 +127,8 @@ def sampled_mode(circle: Circle, pid: Pid, u_max: float, repeats: int) -> dict[s
 
     assert np.allclose(ours(), in_numpy(), atol=1e-8)
     assert np.allclose(ours(), in_objects(), atol=1e-8)
-    least = seconds(ours, repeats)
-    found: dict[str, float | str] = {
-        "whole_run_s": seconds(lambda: circle_tracking(pid, "sampled", u_max, duration_s=circle.duration_s), repeats),
-        "loop_s": least,
-        "numpy_ratio": seconds(in_numpy, 2) / least,
-        "objects_ratio": seconds(in_objects, 2) / least,
-    }
+    whole = partial(circle_tracking, pid, "sampled", u_max, duration_s=circle.duration_s)
+    contenders: list[Callable[[], object]] = [whole, ours, in_numpy, in_objects]
     if math.isinf(u_max):
         closed = closed_loop(pid)
 
@@ -138,8 +136,10 @@ def sampled_mode(circle: Circle, pid: Pid, u_max: float, repeats: int) -> dict[s
             return np.array([control.forced_response(closed, circle.t, row).outputs for row in references.T]).T
 
         assert np.allclose(ours(), by_control(), atol=1e-8)
-        found["control_ratio"] = seconds(by_control, repeats) / least
-    return found
+        contenders.append(by_control)
+    run_s, loop_s, *others = seconds(repeats, *contenders)
+    ratios = dict(zip(("numpy_ratio", "objects_ratio", "control_ratio"), others, strict=False))
+    return {"whole_run_s": run_s, "loop_s": loop_s, **{name: spent / loop_s for name, spent in ratios.items()}}
 
 
 def closed_loop(pid: Pid) -> Any:
@@ -164,7 +164,7 @@ def studies(repeats: int) -> list[dict[str, float | str]]:
         for duration in (3.0, 30.0):
             question = Question(DriveLoop(PAR4_MOTOR, PID_AUTO, Sampling(), hardware), 25.0, duration)
             study(question)
-            spent = seconds(lambda q=question: study(q), repeats)
+            (spent,) = seconds(3 * repeats, partial(study, question))
             rows.append({"question": f"{name}, {duration:g} s", "ms": 1e3 * spent})
     return rows
 

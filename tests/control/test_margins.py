@@ -201,9 +201,23 @@ def test_a_delay_beyond_the_margin_is_reported_unstable(sampling: Sampling | Non
     assert below.phase_margin_deg > 0.0 > above.phase_margin_deg
 
 
+@PATIENT
+@given(st.booleans().flatmap(loops))
+def test_at_the_delay_margin_the_loop_oscillates_whether_stable_or_not(loop: OpenLoop):
+    """L is -1 at some frequency; a delay cannot be negative."""
+    delay = margins(loop).delay_margin_s
+    assume(math.isfinite(delay))
+    assert delay > 0.0
+    omega, L = dense(loop)
+    assert np.abs(1.0 + L * np.exp(-1j * omega * delay)).min() < 0.01
+
+
 def test_the_delay_margin_is_phase_margin_over_crossover():
     found = margins(OpenLoop(PAR4_MOTOR, PID_AUTO))
     assert found.delay_margin_s == pytest.approx(math.radians(found.phase_margin_deg) / found.crossover_rad_s)
+    unstable = margins(OpenLoop(Motor(1.0, 1.0), Pid(1.0, 3.0)))
+    turn = math.radians(unstable.phase_margin_deg + 360.0)
+    assert not unstable.stable and unstable.delay_margin_s == pytest.approx(turn / unstable.crossover_rad_s)
 
 
 def test_a_loop_that_never_reaches_unity_gain_bears_any_delay():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
@@ -13,6 +13,7 @@ from app.control.motor import Zoh
 from tests.robots.golden import golden
 from tests.support.oracles import control, signal
 
+UNTIMED = settings(deadline=None)
 GOLDEN = golden("motor_steps")
 MOTORS = st.builds(
     Motor,
@@ -36,6 +37,7 @@ def test_the_paper_motor_has_the_golden_poles_and_gain():
     assert PAR4_MOTOR.unit == "deg"
 
 
+@UNTIMED
 @given(MOTORS)
 def test_the_slow_pole_comes_last_and_both_solve_the_equation(motor: Motor):
     fast, slow = motor.poles
@@ -88,6 +90,7 @@ def test_a_step_of_one_volt_passes_through_the_golden_samples():
         assert state[0] == pytest.approx(y, rel=1e-9)
 
 
+@UNTIMED
 @given(MOTORS, PERIODS)
 def test_the_state_step_is_scipys(motor: Motor, period: float):
     continuous = (np.array([[0.0, 1.0], [-motor.T2, -motor.T1]]), np.array([[0.0], [motor.K]]))
@@ -97,6 +100,7 @@ def test_the_state_step_is_scipys(motor: Motor, period: float):
     assert np.allclose(ours_B, B[:, 0], rtol=1e-9, atol=1e-12)
 
 
+@UNTIMED
 @given(MOTORS, PERIODS)
 def test_two_half_steps_are_one_step(motor: Motor, period: float):
     A, B = matrices(motor.zoh(period))
@@ -105,6 +109,7 @@ def test_two_half_steps_are_one_step(motor: Motor, period: float):
     assert np.allclose(half_A @ half_B + half_B, B, rtol=1e-9, atol=1e-12)
 
 
+@UNTIMED
 @given(MOTORS, PERIODS)
 def test_the_state_step_and_the_sampled_transfer_function_agree(motor: Motor, period: float):
     A, B = matrices(motor.zoh(period))

@@ -7,13 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from app.control import PAR4_MOTOR, PID_APPROX, PID_AUTO, Pid
 from tests.robots.golden import golden
 from tests.support.oracles import control
 
+UNTIMED = settings(deadline=None)
 GOLDEN = golden("motor_steps")
 GAINS = st.floats(0.01, 100.0)
 GAINS_OR_NONE = st.one_of(st.just(0.0), GAINS)
@@ -34,19 +35,24 @@ def as_written(pid: Pid, s: complex, b: float, c: float) -> complex:
     return pid.kp * b + pid.ki / s + pid.kd * c * derivative
 
 
+@UNTIMED
 @given(PIDS, st.floats(0.01, 1000.0))
+@example(Pid(2.0, 1.0, 0.5, 100.0, 0.3, 0.7), 20.0)
+@example(Pid(2.0, 1.0, 0.5, math.inf, 0.3, 0.7), 20.0)
 def test_the_transfer_functions_are_the_formula(pid: Pid, omega: float):
     s = 1j * omega
     assert pid.transfer_function()(s) == pytest.approx(as_written(pid, s, 1.0, 1.0), rel=1e-9)
     assert pid.setpoint_transfer_function()(s) == pytest.approx(as_written(pid, s, pid.b, pid.c), rel=1e-9, abs=1e-9)
 
 
+@UNTIMED
 @given(PIDS)
 def test_parts_that_are_switched_off_leave_no_poles(pid: Pid):
     expected = bool(pid.ki) + (bool(pid.kd) and math.isfinite(pid.n))
     assert len(pid.transfer_function().poles()) == expected
 
 
+@UNTIMED
 @given(GAINS, st.floats(0.01, 10.0), st.floats(0.0, 10.0))
 def test_the_ideal_form_is_kp_times_the_times(kp: float, Ti: float, Td: float):
     pid, s = Pid.ideal(kp, Ti, Td), 0.3 + 2.0j

@@ -7,13 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.control import PID_AUTO, Pid
 from app.control.sampled_pid import AntiWindup, Method, Sampling, sampled_pid
 from tests.support.oracles import signal
 
+UNTIMED = settings(deadline=None)
 METHODS: tuple[Method, ...] = ("backward Euler", "Tustin")
 ANTI_WINDUPS: tuple[AntiWindup, ...] = ("none", "clamping", "back-calculation")
 GAINS_OR_NONE = st.one_of(st.just(0.0), st.floats(0.01, 50.0))
@@ -50,6 +51,7 @@ def by_filters(pid: Pid, sampling: Sampling, r: np.ndarray, y: np.ndarray) -> np
     return u + signal.lfilter(pid.kd * top, below, pid.c * r - y)
 
 
+@UNTIMED
 @given(PIDS, SAMPLINGS, SEEDS)
 def test_without_a_limit_it_is_the_discrete_transfer_function(pid: Pid, sampling: Sampling, seed: int):
     r, y = signals(seed)
@@ -59,6 +61,7 @@ def test_without_a_limit_it_is_the_discrete_transfer_function(pid: Pid, sampling
     assert np.allclose(u, expected, rtol=1e-9, atol=1e-9 * (1.0 + np.abs(expected).max()))
 
 
+@UNTIMED
 @given(IDEAL_PIDS, SAMPLINGS, SEEDS)
 def test_an_ideal_derivative_is_the_methods_difference(pid: Pid, sampling: Sampling, seed: int):
     r, y = signals(seed)
@@ -68,12 +71,14 @@ def test_an_ideal_derivative_is_the_methods_difference(pid: Pid, sampling: Sampl
     assert np.allclose(u, expected, rtol=1e-9, atol=1e-9 * (1.0 + np.abs(expected).max()))
 
 
+@UNTIMED
 @given(PIDS, SAMPLINGS, st.floats(-200.0, 200.0))
 def test_the_start_is_bumpless_wherever_the_drive_stands(pid: Pid, sampling: Sampling, start: float):
     law = sampled_pid(pid, sampling, 12.0, start)
     assert np.allclose([law(start, start) for _ in range(20)], 0.0, atol=1e-7)
 
 
+@UNTIMED
 @given(PIDS, SAMPLINGS, SEEDS, st.floats(-200.0, 200.0), st.floats(1.0, 1000.0))
 def test_only_the_distance_from_the_start_counts(pid: Pid, sampling: Sampling, seed: int, start: float, u_max: float):
     r, y = signals(seed)
@@ -83,12 +88,14 @@ def test_only_the_distance_from_the_start_counts(pid: Pid, sampling: Sampling, s
     assert np.allclose(u_here, u_there, atol=1e-6 * (1.0 + pid.kd / sampling.period_s))
 
 
+@UNTIMED
 @given(PIDS, SAMPLINGS, SEEDS, st.floats(0.1, 100.0))
 def test_the_output_never_exceeds_its_limit(pid: Pid, sampling: Sampling, seed: int, u_max: float):
     law = sampled_pid(pid, sampling, u_max)
     assert all(-u_max <= law(a, b) <= u_max for a, b in zip(*(x.tolist() for x in signals(seed)), strict=True))
 
 
+@UNTIMED
 @given(PIDS, st.sampled_from(METHODS), SEEDS)
 def test_anti_windup_does_nothing_where_nothing_is_limited(pid: Pid, method: Method, seed: int):
     r, y = (x.tolist() for x in signals(seed))

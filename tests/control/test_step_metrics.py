@@ -6,12 +6,13 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.control.step_metrics import StepMetrics, step_metrics
 from tests.support.oracles import control
 
+UNTIMED = settings(deadline=None)
 SETPOINTS = st.sampled_from([1.0, 25.0, -40.0])
 
 
@@ -21,6 +22,7 @@ def first_order(tau: float, setpoint: float, duration: float = 20.0, count: int 
     return step_metrics(t, y, setpoint, np.full_like(t, 2.0)), t[1]
 
 
+@UNTIMED
 @given(st.floats(0.01, 10.0), SETPOINTS)
 def test_a_first_order_lag_has_its_closed_forms(tau: float, setpoint: float):
     found, step = first_order(tau, setpoint)
@@ -35,6 +37,7 @@ def test_a_first_order_lag_has_its_closed_forms(tau: float, setpoint: float):
     assert found.peak == pytest.approx(setpoint, rel=1e-8) and found.peak_s == pytest.approx(20.0 * tau)
 
 
+@UNTIMED
 @given(st.floats(0.15, 0.75), st.floats(0.5, 20.0), SETPOINTS)
 def test_a_second_order_lag_overshoots_as_the_textbook_says(zeta: float, omega: float, setpoint: float):
     damped = omega * math.sqrt(1.0 - zeta**2)
@@ -97,6 +100,7 @@ def test_steady_state_error_is_the_mean_of_the_last_twentieth():
     assert step_metrics(t, y, 1.0, np.zeros(100)).steady_state_error == pytest.approx(0.1)
 
 
+@UNTIMED
 @given(st.floats(0.1, 50.0), st.floats(0.2, 0.7))
 def test_metrics_scale_with_the_step(setpoint: float, zeta: float):
     t = np.linspace(0.0, 20.0, 2001)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.motion import PATHS, Tour, quintic
 from app.robots import ROBOTS, make_robot
 
+UNTIMED = settings(deadline=None)
 PHASES = np.linspace(0.0, 1.0, 4001)[:-1]
 STEP = PHASES[1]
 
@@ -88,6 +89,7 @@ def test_the_quintic_is_at_rest_at_both_ends():
     assert quintic(0.5) == pytest.approx(0.5)
 
 
+@UNTIMED
 @given(st.floats(-5.0, 5.0))
 def test_the_quintic_is_symmetric_monotonous_and_constant_beyond(s: float):
     assert quintic(s) + quintic(1.0 - s) == pytest.approx(1.0, abs=1e-12)
@@ -108,6 +110,7 @@ def test_a_tour_lies_around_home_in_its_plane(robot_name: str, name: str):
     assert distance.max() == pytest.approx(0.04, abs=1e-9) and distance.max() <= 0.04 + 1e-12
 
 
+@UNTIMED
 @given(st.sampled_from(list(PATHS)), st.floats(0.0, 50.0), st.floats(0.5, 20.0))
 def test_every_lap_is_alike_and_clockwise_is_the_mirror_image(name: str, t: float, lap: float):
     robot = make_robot("par4")

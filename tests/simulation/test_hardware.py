@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.control import PAR4_MOTOR, PID_AUTO, Motor
@@ -16,6 +16,7 @@ from app.simulation.hardware import FINE_STEP_S, MAX_DELAY_S, Hardware, sensor, 
 from app.simulation.sampled_loop import DriveLoop, fewest_substeps, simulate
 from tests.support.oracles import control
 
+UNTIMED = settings(deadline=None)
 H = 0.001
 FREE = Motor(K=1000.0, T1=20.0)
 """A true integrator: 50 units per second and volt, time constant 50 ms."""
@@ -67,6 +68,7 @@ def test_the_supply_limits_what_the_controller_gets():
     assert turned(PAR4_MOTOR, Hardware(), np.array(limited.u), 0.01)[:-1] == pytest.approx(limited.y)
 
 
+@UNTIMED
 @given(SEEDS, st.integers(1, 1000), st.floats(5.0, 48.0))
 def test_pulse_width_rounds_the_voltage_to_its_steps(seed: int, steps: int, supply: float):
     u = voltages(seed)
@@ -87,6 +89,7 @@ def test_pulse_width_without_a_limited_supply_has_no_steps():
     assert np.array_equal(turned(FREE, Hardware(pwm_steps=10), u), turned(FREE, Hardware(), u))
 
 
+@UNTIMED
 @given(st.integers(6, 20), st.floats(100.0, 600.0), st.floats(-300.0, 300.0))
 def test_a_converter_reads_whole_steps_of_its_range(bits: int, span: float, y: float):
     step = span / 2**bits
@@ -177,6 +180,14 @@ def test_dry_friction_holds_a_drooping_rotor_where_it_is():
     assert smooth[-1] < smooth[-5000] - 1.0
 
 
+def test_a_droop_stronger_than_dry_friction_pulls_the_rotor_back_to_where_they_balance():
+    balance = 0.5 * PAR4_MOTOR.K / PAR4_MOTOR.T2
+    still = turned(PAR4_MOTOR, Hardware(coulomb_v=0.5), np.zeros(2000), 0.1, y=0.99 * balance)
+    assert (still == 0.99 * balance).all()
+    pulled = turned(PAR4_MOTOR, Hardware(coulomb_v=0.5), np.zeros(2000), 0.1, y=2.0 * balance)
+    assert pulled[-1] == pytest.approx(balance, rel=1e-3) and (np.diff(pulled) <= 0.0).all()
+
+
 def test_viscous_friction_is_added_damping():
     u = voltages()
     y = turned(FREE, Hardware(viscous=30.0), u)
@@ -195,6 +206,7 @@ def test_inertia_slows_the_motor_and_keeps_its_final_speed(factor: float):
     assert (steady[-1] - steady[-2]) / H == pytest.approx(300.0, rel=1e-5)
 
 
+@UNTIMED
 @given(SEEDS, st.floats(0.01, 5.0))
 def test_play_lets_the_joint_rest_until_a_flank_touches_it(seed: int, play: float):
     u = voltages(seed)
@@ -239,6 +251,7 @@ def test_values_between_the_instants_change_nothing_at_them():
     assert fine.ise == pytest.approx(coarse.ise) and len(fine.y) == 1400
 
 
+@UNTIMED
 @given(
     st.builds(
         Hardware,

@@ -75,8 +75,10 @@ def test_the_pose_belongs_to_the_joints(name: str):
     assert np.allclose(run.tool_error_m, 2 * 0.03 * math.sin(math.pi * 0.1), atol=1e-8), "a chord of the circle"
 
 
-def test_rotation_does_not_count_as_tool_error():
+def test_height_counts_as_tool_error_and_rotation_does_not():
     run = made("par4")
+    higher = replace(run, pose_ref=run.pose + [0.0, 0.0, 0.004, 0.0])
+    assert np.allclose(higher.tool_error_m, 0.004)
     turned = replace(run, pose_ref=run.pose_ref + [0.0, 0.0, 0.0, 0.3])
     assert np.allclose(turned.tool_error_m, run.tool_error_m)
 
