@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 
 import viser
 
@@ -19,11 +19,11 @@ document.addEventListener("click", (event) => {
 """
 
 
-def on_tab_opened(client: viser.ClientHandle, label: str, opened: Callable[[], None]) -> None:
+def on_tab_opened(client: viser.ClientHandle, label: str, opened: Callable[[], Awaitable[None]]) -> None:
     """Call `opened` whenever somebody clicks the tab with this label: a script on the page flips a hidden checkbox."""
     bell = client.gui.add_checkbox(f"{label} opened", False, visible=False)
     run_javascript(client, _SCRIPT.replace("LABEL", label).replace("UUID", element_id(bell)))
 
     @bell.on_update
     async def _(_: viser.GuiEvent[viser.GuiCheckboxHandle]) -> None:
-        opened()
+        await opened()

@@ -101,7 +101,7 @@ async def follow(client: WireClient, position: int) -> float:
 
 def report(what: str, times: list[float]) -> None:
     ordered = sorted(times)
-    p95 = ordered[min(len(ordered) - 1, round(0.95 * len(ordered)))]
+    p95 = ordered[round(0.95 * (len(ordered) - 1))]
     print(f"{what:<34} median {statistics.median(times):6.1f} ms   p95 {p95:6.1f} ms   worst {ordered[-1]:6.1f} ms")
 
 

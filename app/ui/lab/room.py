@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
 
 import viser
@@ -51,17 +52,20 @@ class ControlRoom:
         self._tell = tell
         self._runs: RunPanel | None = None
         self._panel: viser.PanelHandle | None = None
+        self._building = self._closed = False
         on_tab_opened(client, "Control", self._open)
 
     def close(self) -> None:
+        self._closed = True
         if self._runs is not None:
             self._runs.close()
 
-    def _open(self) -> None:
-        if self._panel is None:
-            self._build()
-        else:
+    async def _open(self) -> None:
+        if self._panel is not None:
             self._panel.expand()
+        elif not self._building:
+            self._building = True
+            await self._build()
 
     def _place(self, panel: viser.PanelHandle) -> None:
         """On the left, where the robot keeps enough room beside it; on a tablet below the settings."""
@@ -71,24 +75,46 @@ class ControlRoom:
             panel.dock_left()
             panel.set_width(WIDTH)
 
-    def _build(self) -> None:
+    async def _build(self) -> None:
+        """Panel by panel: others get their turn between them."""
         client, session = self._client, self._session
         client.gui.add_html(PLOT_STYLE)
         desk = ControlDesk(session, self._quick)
         book = RunBook(session, self._slow(lambda: book.failed()), self._tell)
+        panel = client.gui.add_panel()
+        self._place(panel)
+        for furnish in (
+            lambda: self._add_settings(desk, book),
+            lambda: self._add_plots(panel, desk),
+            lambda: self._add_runs(panel, desk, book),
+            lambda: self._add_motor(panel, desk),
+        ):
+            furnish()
+            client.flush()
+            await asyncio.sleep(0)
+            if self._closed:
+                return
+        self._panel = panel
+        desk.answered.connect(lambda _: client.flush())
+        desk.open()
+
+    def _add_settings(self, desk: ControlDesk, book: RunBook) -> None:
+        client = self._client
         with self._tab:
             if client.camera.image_width < PHONE_PICTURE_PX:
                 ResponsePlot(client.gui, desk, PHONE_PLOT_PX)
             ControlPanel(client.gui, desk, lambda trap: book.request(*variants(desk.settings, TRAPS[trap].runs)))
-        self._panel = client.gui.add_panel()
-        with self._panel.add_tab("Step", viser.Icon.CHART_LINE):
-            StepPlots(client, desk)
-        with self._panel.add_tab("Frequency", viser.Icon.WAVE_SINE):
-            FrequencyPlots(client, desk)
-        with self._panel.add_tab("Run", viser.Icon.PLAYER_PLAY):
-            self._runs = RunPanel(client, desk, book, Playback(session), self._slow(None))
-        with self._panel.add_tab("Motor", viser.Icon.ENGINE):
-            motor = MotorPanel(client, desk, self._slow(lambda: motor.failed()))
-        self._place(self._panel)
-        desk.answered.connect(lambda _: client.flush())
-        desk.open()
+
+    def _add_plots(self, panel: viser.PanelHandle, desk: ControlDesk) -> None:
+        with panel.add_tab("Step", viser.Icon.CHART_LINE):
+            StepPlots(self._client, desk)
+        with panel.add_tab("Frequency", viser.Icon.WAVE_SINE):
+            FrequencyPlots(self._client, desk)
+
+    def _add_runs(self, panel: viser.PanelHandle, desk: ControlDesk, book: RunBook) -> None:
+        with panel.add_tab("Run", viser.Icon.PLAYER_PLAY):
+            self._runs = RunPanel(self._client, desk, book, Playback(self._session), self._slow(None))
+
+    def _add_motor(self, panel: viser.PanelHandle, desk: ControlDesk) -> None:
+        with panel.add_tab("Motor", viser.Icon.ENGINE):
+            motor = MotorPanel(self._client, desk, self._slow(lambda: motor.failed()))
