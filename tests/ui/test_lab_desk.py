@@ -172,6 +172,8 @@ def test_runs_are_the_papers_and_are_kept():
 def test_a_run_can_be_cancelled_and_an_impossible_one_is_refused():
     async def scene(worker: Worker, told: list[str]) -> None:
         book = RunBook(Session(Memory("par4")), worker, told.append)
+        finished: list[object] = []
+        book.finished.connect(finished.append)
         book.request(PAR4, PAR4)
         book.cancel()
         assert not book.busy
@@ -179,7 +181,7 @@ def test_a_run_can_be_cancelled_and_an_impossible_one_is_refused():
         assert book.runs == []
         book.request(changed(PAR4, size_m=0.2), PAR4)
         await until(lambda: not book.busy, "refusal")
-        assert book.runs == [] and len(told) == 1
+        assert book.runs == [] and finished == [] and len(told) == 1
         assert "out of reach" in told[0] and told[0].endswith("make it smaller.")
 
     with_worker(scene)

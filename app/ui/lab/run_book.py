@@ -22,6 +22,8 @@ class RunBook:
     def __init__(self, session: Session, worker: Worker, tell: Callable[[str], None]) -> None:
         self.selected: Signal[Run | None] = Signal()
         """Another run is to be shown, or none."""
+        self.finished: Signal[Run] = Signal()
+        """All runs that were asked for are there; this is the last one."""
         self.busy_changed: Signal[bool] = Signal()
         self._session = session
         self._worker = worker
@@ -69,10 +71,13 @@ class RunBook:
         if isinstance(result, Refusal):
             self._wanted.clear()
             self._tell(result.reason)
-        else:
-            self.runs = [*self.runs, result][-KEPT:]
-            self.select(result)
+            self._set_busy(False)
+            return
+        self.runs = [*self.runs, result][-KEPT:]
+        self.select(result)
         self._next()
+        if not self.busy:
+            self.finished.emit(result)
 
     def _set_busy(self, busy: bool) -> None:
         if busy != self.busy:

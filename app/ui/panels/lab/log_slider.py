@@ -12,8 +12,10 @@ from app.ui.viser_adapter import element_id, show_value
 PER_DECADE = 40
 """Steps of the slider."""
 
-DIGITS = 4
-"""Significant digits that a pulled value has."""
+PULLED_DIGITS = 3
+"""Significant digits of a value that was pulled."""
+SHOWN_DIGITS = 6
+"""Of one that was computed."""
 
 
 class LogSlider:
@@ -51,7 +53,7 @@ class LogSlider:
 
     def show(self, value: float) -> None:
         """Show a value that did not come from here."""
-        show_value(self._field, _rounded(value))
+        show_value(self._field, _rounded(value, SHOWN_DIGITS))
         show_value(self._slider, self._position(value))
 
     @property
@@ -68,11 +70,11 @@ class LogSlider:
         return min(max(round(PER_DECADE * (math.log10(value) - self._low)), 0), self._steps)
 
     def _value(self, position: int) -> float:
-        return _rounded(10.0 ** (self._low + position / PER_DECADE)) if position > 0 else 0.0
+        return _rounded(10.0 ** (self._low + position / PER_DECADE), PULLED_DIGITS) if position > 0 else 0.0
 
 
-def _rounded(value: float) -> float:
-    return float(f"{value:.{DIGITS + 2}g}") if math.isfinite(value) else 0.0
+def _rounded(value: float, digits: int) -> float:
+    return float(f"{value:.{digits}g}") if math.isfinite(value) else 0.0
 
 
 def _hide_number(slider_id: str) -> str:

@@ -49,7 +49,7 @@ class RunPanel:
         self._save = gui.add_button("Save this run as CSV", icon=viser.Icon.DOWNLOAD, visible=False)
         self._forget = gui.add_button("Forget all runs", icon=viser.Icon.ERASER, visible=False)
         book.selected.connect(self._show)
-        book.busy_changed.connect(self._play_when_done)
+        book.finished.connect(lambda _: playback.play())
         self._listen()
 
     def close(self) -> None:
@@ -79,10 +79,6 @@ class RunPanel:
         self._list(run)
         for element in (self._choice, self._save, self._forget):
             element.visible = run is not None
-
-    def _play_when_done(self, busy: bool) -> None:
-        if not busy and self._book.run is not None:
-            self._playback.play()
 
     def _list(self, run: Run | None) -> None:
         self._table.content = runs_table(self._book.runs, run)
@@ -143,6 +139,8 @@ class RunPlots:
         if run is None:
             return
         chosen = run.outline(POINTS, *STRETCHES[self._stretch.value])
+        if len(chosen) < 2:  # the run is shorter than this stretch
+            chosen = run.outline(POINTS)
         names = ROBOTS[run.robot].build.joint_names
         one = names.index(self._drive.value) if self._drive.value in names else None
         hidden = np.array([one is not None and k != one for k in range(len(names))])
