@@ -43,6 +43,8 @@ class ControlPanel:
 
         @reset.on_click
         async def _(_: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
+            show_options(self._trap, self._trap.options, NO_TRAP)
+            self._advice.content = ""
             self._desk.reset()
 
     def _add_traps(self, gui: viser.GuiApi) -> None:

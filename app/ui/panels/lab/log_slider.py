@@ -81,5 +81,6 @@ def _hide_number(slider_id: str) -> str:
     """The slider's own number is a position on the scale and means nothing; nor is its label needed twice."""
     return (
         f'<style>[id="{slider_id}"] + * {{ display: none !important; }}'
+        f' [id="{slider_id}"] .mantine-Slider-label {{ display: none; }}'
         f' label[for="{slider_id}"] {{ opacity: 0; }}</style>'
     )
