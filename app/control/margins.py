@@ -43,7 +43,9 @@ def margins(loop: OpenLoop) -> Margins:
     """Margins of the closed loop with unity feedback."""
     omega = np.geomspace(LOWEST_RAD_S, min(HIGHEST_RAD_S, 0.9999 * loop.highest_rad_s), GRID_POINTS)
     L = loop.response(omega)
-    gains = _crossings(loop, omega, np.log(np.abs(L)), lambda value: math.log(abs(value)))
+    with np.errstate(divide="ignore"):  # a controller without any gain
+        logs = np.log(np.abs(L))
+    gains = _crossings(loop, omega, logs, lambda value: math.log(abs(value)))
     turns = [w for w in _crossings(loop, omega, L.imag, lambda value: value.imag) if _at(loop, w).real < 0.0]
     phase = [(math.remainder(float(np.angle(_at(loop, w))) - math.pi, math.tau), w) for w in gains]
     pm, crossover = min(phase, key=lambda found: abs(found[0]), default=(math.inf, math.nan))

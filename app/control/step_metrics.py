@@ -40,6 +40,7 @@ class StepMetrics:
     """Share of the time that the control signal stands at its limit."""
 
 
+@np.errstate(over="ignore", invalid="ignore")  # a loop may diverge
 def step_metrics(t: ArrayLike, y: ArrayLike, setpoint: float, u: ArrayLike, u_max: float = math.inf) -> StepMetrics:
     """Metrics of a step from 0 to `setpoint` (not 0) at t[0]; all arrays (k,), evenly spaced times in s."""
     time, output, control = (np.asarray(values, dtype=float) for values in (t, y, u))

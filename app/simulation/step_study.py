@@ -155,7 +155,8 @@ def _frequency_range(motor: Motor, found: Margins) -> tuple[float, float]:
 
 def _frequency(loop: OpenLoop, omega: Array, found: Margins) -> Frequency:
     L = np.where(omega < loop.highest_rad_s, loop.response(omega), np.nan)
-    gain_db = 20.0 * np.log10(np.abs(L))
+    with np.errstate(divide="ignore"):
+        gain_db = 20.0 * np.log10(np.abs(L))
     phase = np.full_like(omega, np.nan)
     known = np.isfinite(L)
     phase[known] = np.degrees(np.unwrap(np.angle(L[known])))

@@ -21,6 +21,10 @@ Array = NDArray[np.float64]
 DASH = (6, 4)
 LIMIT = (2, 4)
 
+FARTHEST_DRAWN = 20.0
+"""Times the set-point."""
+MOST_DRAWN_V = 1e5
+
 NOW = Curve("now", theme.ACTUAL, 2.5)
 IDEAL = Curve("ideal", theme.IDEAL, 1.5, DASH)
 BASELINE = Curve("baseline", theme.BASELINE, 1.5, optional=True)
@@ -56,7 +60,8 @@ class ResponsePlot:
         board, ideal = answer.study.board, answer.study.ideal
         kept = self._desk.baseline.study.board if self._desk.baseline else None
         setpoint = np.full_like(board.t, answer.settings.setpoint)
-        curves = setpoint, _on(board.t, ideal, "y"), _on(board.t, kept, "y"), board.y
+        far = FARTHEST_DRAWN * answer.settings.setpoint
+        curves = setpoint, *(_within(far, y) for y in (_on(board.t, ideal, "y"), _on(board.t, kept, "y"), board.y))
         self._plot.show(board.t, *curves, *_marks(board, answer.settings.setpoint))
 
 
@@ -80,9 +85,8 @@ class StepPlots:
         t, kept = study.board.t, self._desk.baseline.study.board if self._desk.baseline else None
         limit = settings.hardware.supply_v if np.isfinite(settings.hardware.supply_v) else np.nan
         limits = (np.full_like(t, limit), np.full_like(t, -limit))
-        ideal = _on(t, study.ideal, "u")
-        ideal[np.abs(ideal) > _room_for(study, limit)] = np.nan
-        self._control.show(t, *limits, ideal, _on(t, kept, "u"), study.board.u)
+        ideal = _within(_room_for(study, limit), _on(t, study.ideal, "u"))
+        self._control.show(t, *limits, ideal, _on(t, kept, "u"), _within(MOST_DRAWN_V, study.board.u))
         self._table.content = metrics_table(answer, self._desk.baseline)
 
 
@@ -142,6 +146,11 @@ def _over(omega: Array, frequency: Frequency | None, what: str) -> Array:
     if frequency is None:
         return np.full_like(omega, np.nan)
     return np.interp(omega, frequency.omega, getattr(frequency, what), left=np.nan, right=np.nan)
+
+
+def _within(far: float, curve: Array) -> Array:
+    """The curve of a loop that diverges is drawn no farther than this."""
+    return np.where(np.abs(curve) <= far, curve, np.nan)
 
 
 def _room_for(study: Study, limit: float) -> float:
