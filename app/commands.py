@@ -13,6 +13,7 @@ from typing import TypeVar
 import tyro
 
 from app import __version__
+from app.draw_command import Draw, draw
 from app.errors import UserMistake
 from app.resources import data_root
 from app.ui.options import ServeOptions
@@ -68,6 +69,7 @@ def reproduce(command: Reproduce) -> None:
 
 
 COMMANDS: dict[str, tuple[type, Callable[..., None]]] = {
+    "draw": (Draw, draw),
     "meshes": (Meshes, build_meshes),
     "reproduce": (Reproduce, reproduce),
 }

@@ -1,0 +1,172 @@
+"""Lines along the flow of the picture, closer together where it is darker (after Jobard and Lefer 1997)."""
+
+from __future__ import annotations
+
+import heapq
+import math
+from collections.abc import Iterator
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from app.drawing.rasterise.flow import flow_of
+from app.drawing.rasterise.mode import PENS, Parameter, RasterMode
+from app.drawing.rasterise.tone import drive_for, inked_where, softened, wanted_cover
+from app.drawing.rasterise.types import Field, Mask, Stroke
+
+STEP = 1.0
+"""Pen widths."""
+
+CLOSEST, FARTHEST = 1.0, 16.0
+"""Distance of lines in pen widths, at full and at no drive."""
+
+NEAREST = 0.6
+"""A line ends where it comes this near to another, relative to the wanted distance."""
+
+SHORTEST = 4.0
+"""Pen widths; shorter lines are left out."""
+
+SEED_EVERY = 3
+"""Points along a line from which neighbours are begun."""
+
+CELL = 0.5
+"""Pen widths; how finely the room taken by lines is remembered."""
+
+LOOP = 8
+"""Steps after which a line that comes to a cell again has gone round."""
+
+SEEN = 1.0
+"""Blur before the picture is read, in pen widths."""
+
+Seed = tuple[float, float, float]
+"""(distance of lines there, x, y): where a line may begin, the darkest first."""
+
+
+def draw(tone: Field, pen: float, smooth: float = 5.0, longest: float = 150.0) -> list[Stroke]:
+    """PIXEL strokes; over how much the flow is smoothed and the longest line, both in pen widths."""
+    cover = softened(wanted_cover(tone), SEEN * pen)
+    drive = drive_for(_diagonals, cover, longest=longest)
+    return _Lines(drive, inked_where(tone, pen), pen, tone, smooth, longest).all()
+
+
+def _diagonals(drive: Field, inked: Mask, pen: float, *, longest: float) -> list[Stroke]:
+    """For the calibration, which has no picture to follow."""
+    return _Lines(drive, inked, pen, np.zeros_like(drive), 1.0, longest).all()
+
+
+class _Lines:
+    """Lines laid so far, and the room that they take.
+
+    Everything counts in CELLs, so that a step of a line is a few look-ups in flat memory.
+    """
+
+    def __init__(self, drive: Field, inked: Mask, pen: float, tone: Field, smooth: float, longest: float) -> None:
+        height, width = drive.shape
+        self.cell = CELL * pen
+        self.columns, self.rows = size = max(1, math.ceil(width / self.cell)), max(1, math.ceil(height / self.cell))
+        pens = max(1, math.ceil(width / pen)), max(1, math.ceil(height / pen))
+        small = np.asarray(cv2.resize(tone, pens, interpolation=cv2.INTER_AREA), np.float32)
+        self.cos, self.sin = (axis.reshape(-1).data for axis in flow_of(small, smooth, size))
+        pick = _nearest(self.rows, self.cell, height)[:, None], _nearest(self.columns, self.cell, width)
+        self.apart = 1 / (CELL * np.maximum(drive[pick] / CLOSEST, 1 / FARTHEST))
+        # 1 where a line would come too near, and where another one should not begin; white paper is both at once
+        self.taken = np.where(inked[pick], 0, 1).astype(np.uint8)
+        self.crowded = self.taken.copy()
+        self.taken_at = self.taken.reshape(-1).data
+        self.most = max(2, round(longest / STEP))
+
+    def all(self) -> list[Stroke]:
+        """Dark lines first, each followed by its neighbours."""
+        strokes = []
+        for seed in self._everywhere():
+            waiting = [seed]
+            while waiting:
+                _, x, y = heapq.heappop(waiting)
+                if self.crowded[int(y), int(x)]:
+                    continue
+                line = self._line(x, y)
+                if (len(line) - 1) * STEP < SHORTEST:
+                    self.crowded[int(y), int(x)] = 1
+                    continue
+                self._take(line)
+                strokes.append(line * self.cell - 0.5)
+                for beside in self._beside(line):
+                    heapq.heappush(waiting, beside)
+        return strokes
+
+    def _everywhere(self) -> Iterator[Seed]:
+        """Every second free cell of every second row, the darkest first."""
+        apart = self.apart[::2, ::2]
+        order = np.argsort(apart, axis=None, kind="stable")
+        rows, columns = np.unravel_index(order[self.crowded[::2, ::2].ravel()[order] == 0], apart.shape)
+        for row, column in zip((2 * rows).tolist(), (2 * columns).tolist(), strict=True):
+            if not self.crowded[row, column]:
+                yield 0.0, column + 0.5, row + 0.5
+
+    def _line(self, x: float, y: float) -> NDArray[np.float64]:
+        visited: dict[int, int] = {}
+        onwards = self._half(x, y, 1, visited, self.most)
+        back = self._half(x, y, -1, visited, self.most - len(onwards))
+        return np.array([*reversed(back), (x, y), *onwards])
+
+    def _half(self, x: float, y: float, sign: int, visited: dict[int, int], most: int) -> list[tuple[float, float]]:
+        """From a start along the flow, until there is no room."""
+        cos, sin, taken, columns, rows = self.cos, self.sin, self.taken_at, self.columns, self.rows
+        step = STEP / CELL
+        at = int(y) * columns + int(x)
+        dx, dy = sign * cos[at], sign * sin[at]
+        points = []
+        for count in range(most):
+            # the direction half a step ahead keeps circles from widening
+            ahead_x, ahead_y = x + dx * step / 2, y + dy * step / 2
+            if not (0 <= ahead_x < columns and 0 <= ahead_y < rows):
+                break
+            at = int(ahead_y) * columns + int(ahead_x)
+            c, s = cos[at], sin[at]
+            dx, dy = (c, s) if c * dx + s * dy >= 0 else (-c, -s)
+            x, y = x + dx * step, y + dy * step
+            if not (0 <= x < columns and 0 <= y < rows):
+                break
+            at = int(y) * columns + int(x)
+            if taken[at] or abs(visited.setdefault(at, sign * count) - sign * count) > LOOP:
+                break
+            points.append((x, y))
+        return points
+
+    def _take(self, line: NDArray[np.float64]) -> None:
+        column, row = line.astype(int).T
+        apart = self.apart[row, column]
+        centres = np.rint((line - 0.5) * 16).astype(int).tolist()
+        for room, share in ((self.crowded, 1.0), (self.taken, NEAREST)):
+            radii = np.rint((share * apart - 0.5) * 16).astype(int).tolist()
+            for centre, radius in zip(centres, radii, strict=True):
+                cv2.circle(room, centre, radius, 1, -1, cv2.LINE_8, 4)
+
+    def _beside(self, line: NDArray[np.float64]) -> list[Seed]:
+        """Free places on both sides, where neighbours could begin."""
+        points, along = line[:-1:SEED_EVERY], np.diff(line, axis=0)[::SEED_EVERY]
+        column, row = points.astype(int).T
+        away = (self.apart[row, column] + 0.8)[:, None] * along[:, ::-1] * (-1, 1) * (CELL / STEP)
+        x, y = np.concatenate([points + away, points - away]).T
+        inside = (x >= 0) & (x < self.columns) & (y >= 0) & (y < self.rows)
+        x, y = x[inside], y[inside]
+        free = self.crowded[y.astype(int), x.astype(int)] == 0
+        x, y = x[free], y[free]
+        return list(zip(self.apart[y.astype(int), x.astype(int)].tolist(), x.tolist(), y.tolist(), strict=True))
+
+
+def _nearest(count: int, cell: float, side: int) -> NDArray[np.int64]:
+    """(count,) the pixel, of `side` pixels, in the middle of each cell."""
+    return np.clip(np.rint((np.arange(count) + 0.5) * cell - 0.5), 0, side - 1).astype(np.int64)
+
+
+STREAMLINES = RasterMode(
+    "Streamlines",
+    "Lines that follow the shapes, closer together where the picture is darker. The most like a drawing by hand.",
+    (
+        Parameter("smooth", "Smoothness of the flow", 5.0, 1.0, 20.0, 0.5, PENS),
+        Parameter("longest", "Longest line", 150.0, 20.0, 1000.0, 10.0, PENS),
+    ),
+    draw,
+)
