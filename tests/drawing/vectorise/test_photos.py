@@ -88,7 +88,7 @@ def test_the_same_at_twice_the_size():
 def test_the_flow_may_point_either_way_from_pixel_to_pixel():
     """A tensor knows an axis, not a direction; along any the mean of the squared way is the variance."""
     x = np.tile(np.arange(60, dtype=np.float32), (20, 1))
-    either = np.random.default_rng(2).choice(np.float32([-1.0, 1.0]), x.shape)
+    either = np.random.default_rng(2).choice([-1.0, 1.0], x.shape).astype(np.float32)
     way = along_flow(x * x, either, np.zeros_like(x), 3.0) - x * x
     same = along_flow(x * x, np.ones_like(x), np.zeros_like(x), 3.0) - x * x
     np.testing.assert_allclose(way[:, 10:-10], same[:, 10:-10], rtol=1e-3)
