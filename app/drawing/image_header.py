@@ -10,6 +10,9 @@ from app.drawing.errors import DrawingError
 MAX_CHUNKS = 20_000
 """A 100-megapixel PNG has some thousands; more are there to keep us busy."""
 
+NEEDED = (b"IHDR", b"PLTE", b"tRNS", b"IDAT", b"IEND")
+"""Chunks without which a PNG cannot be decoded as it was meant."""
+
 TIFF_WIDTH, TIFF_HEIGHT, TIFF_ORIENTATION = 256, 257, 274
 UNREADABLE = "This file cannot be read as a picture; save it as PNG or JPEG and try again."
 DAMAGED = "The picture is damaged or was not copied to its end; save or download it again."
@@ -74,7 +77,7 @@ def _what_else(data: bytes) -> str:
 
 def _png(data: bytes) -> ImageHeader:
     width, height, depth, colour = struct.unpack_from(">IIBB", data, 16)
-    chunks = _chunks(data, 8)
+    chunks = {name: start + 8 for name, start, _ in _chunks(data, 8)}
     orientation = _orientation(data, chunks.get(b"eXIf"))
     opaque = depth <= 8 and colour in (0, 2) and b"tRNS" not in chunks
     return ImageHeader("PNG", width, height, orientation, opaque, animated=b"acTL" in chunks)
@@ -110,7 +113,7 @@ def _bmp(data: bytes) -> ImageHeader:
 
 
 def _webp(data: bytes) -> ImageHeader:
-    chunks = _chunks(data, 12, riff=True)
+    chunks = {name: start + 8 for name, start, _ in _chunks(data, 12, riff=True)}
     orientation = _orientation(data, chunks.get(b"EXIF"))
     kind = data[12:16]
     if kind == b"VP8X":
@@ -131,16 +134,31 @@ def _tiff(data: bytes) -> ImageHeader:
     return ImageHeader("TIFF", *((height, width) if tags.get(TIFF_ORIENTATION, 1) >= 5 else (width, height)))
 
 
-def _chunks(data: bytes, at: int, riff: bool = False) -> dict[bytes, int]:
-    """Name -> where its content starts, of every chunk of a PNG or a RIFF file."""
-    found = {}
+def still_png(data: bytes) -> bytes:
+    """A PNG without what its first picture does not need: OpenCV 5.0 crashes on some damaged animations."""
+    kept = [data[start:stop] for name, start, stop in _chunks(data, 8) if name in NEEDED]
+    return data[:8] + b"".join(kept)
+
+
+def _chunks(data: bytes, at: int, riff: bool = False) -> list[tuple[bytes, int, int]]:
+    """(name, where it starts, where it stops) of every chunk of a PNG or a RIFF file, 8 bytes before its content.
+
+    A PNG's chunks must lie within the file: OpenCV sets aside what they claim, gigabytes for a single wrong byte.
+    """
+    found = []
     for _ in range(MAX_CHUNKS):
-        if at + 8 > len(data):
-            break
+        if riff and at + 8 > len(data):
+            return found
         (length,) = struct.unpack_from("<I" if riff else ">I", data, at + 4 * riff)
-        found[data[at : at + 4] if riff else data[at + 4 : at + 8]] = at + 8
-        at += 8 + length + (length % 2 if riff else 4)  # padding, or a checksum
-    return found
+        name = data[at : at + 4] if riff else data[at + 4 : at + 8]
+        stop = at + 8 + length + (length % 2 if riff else 4)  # padding, or a checksum
+        if stop > len(data) and not riff:
+            break
+        found.append((name, at, stop))
+        if name == b"IEND":
+            return found
+        at = stop
+    raise DrawingError(DAMAGED)
 
 
 def _orientation(data: bytes, at: int | None) -> int:

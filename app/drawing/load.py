@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.drawing.errors import DrawingError
-from app.drawing.image_header import DAMAGED, ImageHeader, read_header
+from app.drawing.image_header import DAMAGED, ImageHeader, read_header, still_png
 
 MAX_BYTES = 100_000_000
 MAX_PIXELS = 100_000_000
+MAX_SIDE = 30_000
 LARGE_JPEG_PIXELS = 4_000_000
 """A larger JPEG is decoded at a half, a quarter or an eighth of its size, which takes a fraction of the time."""
 
@@ -56,10 +57,10 @@ def load_image(data: bytes, longest_px: int = 1000) -> Picture:
 
 
 def _check_size(header: ImageHeader) -> None:
-    if header.width * header.height > MAX_PIXELS:
+    if header.width * header.height > MAX_PIXELS or max(header.width, header.height) > MAX_SIDE:
         raise DrawingError(
-            f"The picture has {header.width} x {header.height} pixels, more than {MAX_PIXELS // 1_000_000} million; "
-            "make it smaller."
+            f"The picture has {header.width} x {header.height} pixels; make it smaller: "
+            f"{MAX_PIXELS // 1_000_000} million, and {MAX_SIDE} to a side, can be drawn."
         )
 
 
@@ -69,6 +70,8 @@ def _decoded(data: bytes, header: ImageHeader, longest_px: int) -> NDArray:
     if header.opaque:
         flags = _jpeg_size(header, longest_px) if header.kind == "JPEG" else cv2.IMREAD_GRAYSCALE
         flags |= cv2.IMREAD_IGNORE_ORIENTATION
+    if header.kind == "PNG":
+        data = still_png(data)
     try:
         pixels = cv2.imdecode(np.frombuffer(data, np.uint8), flags)
     except cv2.error:

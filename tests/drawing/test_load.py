@@ -202,17 +202,18 @@ def test_one_pixel():
 @pytest.mark.parametrize(
     "data",
     [
-        png_header(30000, 30000) + png_chunk(b"IDAT", b"x"),
+        png_header(30000, 30000) + png_chunk(b"IDAT", b"x") + png_chunk(b"IEND", b""),
         b"GIF89a" + struct.pack("<HH", 65535, 65535) + bytes(20),
         b"BM" + bytes(12) + struct.pack("<Iii", 40, 2**30, -(2**30)),
         b"II*\0" + struct.pack("<IHHHIIHHII", 8, 2, 256, 4, 1, 90000, 257, 4, 1, 90000),
         b"RIFF\0\0\0\0WEBPVP8X" + struct.pack("<IIHBHB", 10, 0, 0xFFFF, 0, 0xFFFF, 0),
         b"\xff\xd8\xff\xc0" + struct.pack(">HBHH", 11, 8, 65535, 65535) + bytes(20),
+        b"II*\0" + struct.pack("<IHHHIIHHII", 8, 2, 256, 4, 1, 60, 257, 4, 1, 800_000),
     ],
 )
 def test_a_bomb_is_refused_unopened(data, monkeypatch):
     monkeypatch.setattr(load.cv2, "imdecode", lambda *_: pytest.fail("it was decoded"))
-    assert "more than 100 million" in refusal(data)
+    assert "100 million" in refusal(data)
 
 
 @pytest.mark.parametrize(
@@ -238,6 +239,36 @@ def test_a_bomb_is_refused_unopened(data, monkeypatch):
 def test_refusals_are_one_sentence(data, complaint):
     sentence = refusal(data)
     assert complaint in sentence and sentence.endswith(".") and "\n" not in sentence
+
+
+def test_a_chunk_that_claims_gigabytes_is_not_believed(monkeypatch):
+    """OpenCV would set the memory aside."""
+    data = bytearray(encoded(QUARTERS))
+    data[33] = 0x7F
+    monkeypatch.setattr(load.cv2, "imdecode", lambda *_: pytest.fail("it was decoded"))
+    assert "damaged" in refusal(bytes(data))
+
+
+def test_an_animated_png_is_decoded_without_its_animation(monkeypatch):
+    """OpenCV 5.0 crashes on some damaged ones."""
+    data = encoded(QUARTERS)
+    control = png_chunk(b"acTL", struct.pack(">II", 2, 0))
+    more = png_chunk(b"fcTL", bytes(26)) + png_chunk(b"fdAT", b"\0\0\0\1nonsense")
+    decoded = []
+
+    def spied(buffer, flags, decode=cv2.imdecode):
+        decoded.append(bytes(buffer))
+        return decode(buffer, flags)
+
+    monkeypatch.setattr(load.cv2, "imdecode", spied)
+    found = load_image(data[:33] + control + data[33:-12] + more + data[-12:])
+    assert (found.grey == QUARTERS).all() and found.notes == ("The PNG is animated: its first frame is drawn.",)
+    assert not any(name in decoded[0] for name in (b"acTL", b"fcTL", b"fdAT"))
+
+
+def test_what_follows_a_picture_is_ignored():
+    for kind in (".png", ".jpg"):
+        assert load_image(encoded(QUARTERS, kind) + b"\x7f" * 100).grey.shape == (40, 64)
 
 
 def test_settings_and_sizes_that_cannot_be(monkeypatch):
