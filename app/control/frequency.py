@@ -47,17 +47,16 @@ class OpenLoop:
     @cached_property
     def _poles(self) -> Complex:
         if self.sampling is None:
-            return np.roots(np.polyadd(*_characteristic(self.motor, self.pid))).astype(complex)
+            return np.roots(np.polyadd(*open_loop_polynomials(self.motor, self.pid))).astype(complex)
         roots = np.roots(np.polyadd(*_sampled_characteristic(self.pid, self.sampling, *self._plant))).astype(complex)
         roots = roots[np.abs(roots) > 1e-12]
         return np.asarray(np.log(roots) / self.sampling.period_s, dtype=complex)
 
     @cached_property
     def _plant(self) -> tuple[list[float], list[float]]:
-        """Numerator and denominator in z of the motor behind its hold: y = [1 0] (zI - A)^-1 B u."""
+        """Numerator and denominator in z of the motor behind its hold."""
         assert self.sampling is not None
-        a11, a12, a21, a22, b1, b2 = self.motor.zoh(self.sampling.period_s)
-        return [b1, a12 * b2 - a22 * b1], [1.0, -(a11 + a22), a11 * a22 - a12 * a21]
+        return self.motor.zoh(self.sampling.period_s).polynomials
 
     def _sampled(self, s: Complex) -> Complex:
         assert self.sampling is not None
@@ -80,8 +79,8 @@ def _sampled_pid(pid: Pid, sampling: Sampling, z: Complex) -> Complex:
     return pid.kp + pid.ki / s + pid.kd * derivative
 
 
-def _characteristic(motor: Motor, pid: Pid) -> tuple[Array, Array]:
-    """Denominator and numerator of the open loop in s."""
+def open_loop_polynomials(motor: Motor, pid: Pid) -> tuple[Array, Array]:
+    """Denominator and numerator in s of C G, highest power first; set-point weights do not matter."""
     denominator, numerator = _controller(pid, np.array([1.0, 0.0]), np.array([1.0]))
     return np.convolve([1.0, motor.T1, motor.T2], denominator), motor.K * numerator
 

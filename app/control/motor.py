@@ -30,6 +30,12 @@ class Zoh(NamedTuple):
     b1: float
     b2: float
 
+    @property
+    def polynomials(self) -> tuple[list[float], list[float]]:
+        """Numerator and denominator in z of y / u = [1 0] (zI - A)^-1 B, highest power first."""
+        numerator = [self.b1, self.a12 * self.b2 - self.a22 * self.b1]
+        return numerator, [1.0, -(self.a11 + self.a22), self.a11 * self.a22 - self.a12 * self.a21]
+
 
 @dataclass(frozen=True)
 class Motor:

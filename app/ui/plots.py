@@ -14,6 +14,8 @@ from viser import uplot
 from app.ui import theme
 
 HEIGHT_PX = 210
+DASHED = (6, 4)
+DOTTED = (2, 4)
 AXIS_FONT = "11px system-ui, sans-serif"
 HIDDEN = "deltalab-hidden"
 """Class of legend entries that nobody should see."""

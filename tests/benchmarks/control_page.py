@@ -66,9 +66,9 @@ async def over_the_wire(url: str, students: int) -> list[float]:
 
     async def study(offset: float) -> list[float]:
         async with wire_client(url) as client:
-            await client.wait_for(lambda: labelled(client, "Control opened"), "furnished room")
+            await client.wait_for(lambda: client.has("Control opened"), "furnished room")
             await client.set_value("Control opened", True)
-            await client.wait_for(lambda: labelled(client, "kp, slider"), "control lab")
+            await client.wait_for(lambda: client.has("kp, slider"), "control lab")
             await asyncio.sleep(1.0 + offset)
             times = []
             for k in range(25):
@@ -78,10 +78,6 @@ async def over_the_wire(url: str, students: int) -> list[float]:
 
     rows = await asyncio.gather(*(study(0.2 * k / students) for k in range(students)))
     return [value for row in rows for value in row]
-
-
-def labelled(client: WireClient, label: str) -> bool:
-    return any(made.get("props", {}).get("label") == label for made in client.inputs.values())
 
 
 async def follow(client: WireClient, position: int) -> float:

@@ -117,6 +117,10 @@ class WireClient:
             raise LookupError(f"{len(found)} GUI elements are labelled {label!r}")
         return found[0]
 
+    def has(self, label: str) -> bool:
+        """Whether a GUI element with this label is there."""
+        return any(made.get("props", {}).get("label") == label for made in self.inputs.values())
+
     def value_of(self, label: str) -> Any:
         return self.inputs[self.uuid_of(label)]["value"]
 

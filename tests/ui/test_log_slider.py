@@ -18,8 +18,7 @@ def lab():
 async def furnished(lab: SmallLab, client: WireClient) -> tuple[LogSlider, list[float]]:
     heard: list[float] = []
     slider = LogSlider(lab.client_of(client).gui, "kp", 4.3621, (-2, 2), heard.append)
-    labels = lambda: [made["props"].get("label") for made in client.inputs.values()]  # noqa: E731
-    await client.wait_for(lambda: "kp, slider" in labels(), "slider")
+    await client.wait_for(lambda: client.has("kp, slider"), "slider")
     return slider, heard
 
 

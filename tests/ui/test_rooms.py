@@ -19,11 +19,7 @@ HOME = (0.0, -0.036, -0.3)
 
 async def furnished(client: WireClient) -> None:
     """Wait until the room is complete: the last of its panels has come."""
-    await client.wait_for(lambda: GIZMO in client.nodes and _has(client, "Reset view"), "furnished room")
-
-
-def _has(client: WireClient, label: str) -> bool:
-    return any(made.get("props", {}).get("label") == label for made in client.inputs.values())
+    await client.wait_for(lambda: GIZMO in client.nodes and client.has("Reset view"), "furnished room")
 
 
 def near(client: WireClient, point: tuple[float, float, float]):
@@ -53,7 +49,7 @@ def test_a_drag_moves_the_own_robot_and_no_other(server: RunningServer):
             await one.drag(GIZMO, target)
             await one.wait_for(near(one, target), "tool at the gizmo")
             await one.set_value("Robot", "Linear delta")
-            await one.wait_for(lambda: _has(one, "d1 (mm)"), "joints of the linear delta")
+            await one.wait_for(lambda: one.has("d1 (mm)"), "joints of the linear delta")
             await asyncio.sleep(0.3)
             assert own_nodes(two) == before and two.value_of("Robot") == "Par4 delta"
             assert two.value_of("x (mm)") == 0.0
@@ -93,7 +89,7 @@ def test_a_reload_finds_the_same_robot_again(server: RunningServer):
         async with wire_client(server.url, headers=headers) as client:
             await furnished(client)
             await client.set_value("Robot", "Drawing delta")
-            await client.wait_for(lambda: not _has(client, "q4 (deg)"), "three joints")
+            await client.wait_for(lambda: not client.has("q4 (deg)"), "three joints")
             await client.set_value("x (mm)", 25.0)
             await client.wait_for(near(client, (0.025, 0.0, -0.33)), "typed pose")
         async with wire_client(server.url, headers=headers) as again:

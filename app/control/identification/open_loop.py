@@ -17,8 +17,7 @@ def open_loop(motor: Motor, u: ArrayLike, period_s: float, y0: float = 0.0, v0: 
     from scipy.signal import lfilter
 
     step = motor.zoh(period_s)
-    numerator = [0.0, step.b1, step.a12 * step.b2 - step.a22 * step.b1]
-    denominator = [1.0, -(step.a11 + step.a22), step.a11 * step.a22 - step.a12 * step.a21]
+    numerator, denominator = step.polynomials
     memory = [y0, step.a12 * v0 - step.a22 * y0]
-    y, _ = lfilter(numerator, denominator, np.asarray(u, dtype=float), zi=memory)
+    y, _ = lfilter([0.0, *numerator], denominator, np.asarray(u, dtype=float), zi=memory)
     return np.asarray(y)

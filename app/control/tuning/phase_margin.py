@@ -9,13 +9,10 @@ import cmath
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from app.control.frequency import Array, open_loop_polynomials
 from app.control.motor import Motor
 from app.control.pid import Pid
-
-Polynomial = NDArray[np.float64]
-"""Coefficients, highest power first."""
 
 
 def smallest_margin(pid: Pid, motor: Motor, delay_s: float = 0.0) -> tuple[float, float]:
@@ -24,10 +21,10 @@ def smallest_margin(pid: Pid, motor: Motor, delay_s: float = 0.0) -> tuple[float
     A loop that is stable without delay stays so until the delay eats the margin at one of its crossovers.
     (nan, -inf) if it is unstable even without delay or its gain is never one. Set-point weights do not matter.
     """
-    over, under = _open_loop(pid, motor)
-    if np.roots(_sum(over, under)).real.max() >= 0.0:
+    under, over = open_loop_polynomials(motor, pid)
+    if np.roots(np.polyadd(over, under)).real.max() >= 0.0:
         return math.nan, -math.inf
-    squares = np.roots(_sum(_gain_squared(over), -_gain_squared(under)))
+    squares = np.roots(np.polyadd(_gain_squared(over), -_gain_squared(under)))
     crossovers = [math.sqrt(x.real) for x in squares.tolist() if x.real > 0.0 and abs(x.imag) <= 1e-6 * x.real]
     margins = [(margin_at(w, pid, motor, delay_s), w) for w in crossovers]
     margin, w = min(margins, default=(-math.inf, math.nan))
@@ -46,26 +43,8 @@ def plant_at(w: float, motor: Motor) -> complex:
     return motor.K / complex(motor.T2 - w * w, motor.T1 * w)
 
 
-def _open_loop(pid: Pid, motor: Motor) -> tuple[Polynomial, Polynomial]:
-    """Numerator and denominator of C G without the delay; the integral's s is left out where there is no integral."""
-    filter_s = 1.0 / pid.n
-    over = np.array([pid.kp * filter_s + pid.kd, pid.kp + pid.ki * filter_s, pid.ki])
-    under = np.array([filter_s, 1.0, 0.0]) if filter_s else np.array([1.0, 0.0])
-    if not pid.ki:
-        over, under = over[:-1], under[:-1]
-    return motor.K * over, np.convolve(under, (1.0, motor.T1, motor.T2))
-
-
-def _sum(longer: Polynomial, other: Polynomial) -> Polynomial:
-    if longer.size < other.size:
-        longer, other = other, longer
-    total = longer.copy()
-    total[longer.size - other.size :] += other
-    return total
-
-
-def _gain_squared(polynomial: Polynomial) -> Polynomial:
-    """|p(jw)|^2 as a polynomial in w^2: p(s) p(-s) has even powers only, and s^2 = -w^2."""
+def _gain_squared(polynomial: Array) -> Array:
+    """|p(jw)|^2 as a polynomial in w^2: p(s) p(-s) has even powers only, and s^2 = -w^2. Highest power first."""
     odd = polynomial.copy()
     odd[-2::-2] *= -1.0
     even = np.convolve(polynomial, odd)[::2]

@@ -12,7 +12,7 @@ from app.motion import PATHS
 from app.simulation import Run, Task, TrackingError, follow_sampled, follow_simulink
 from app.simulation.hardware import Hardware
 from app.simulation.step_study import Study, study
-from app.ui.lab.settings import STARTS, ControlSettings
+from app.ui.lab.settings import STARTS, ControlSettings, default_settings
 
 PAPER_LIMIT_PERCENT = 100.0
 
@@ -97,6 +97,4 @@ def run_csv(run: Run) -> bytes:
 
 def warm_up() -> None:
     """Load what the first answer needs, before someone waits for it."""
-    from app.ui.lab.settings import default_settings
-
     answer(default_settings("par4"))

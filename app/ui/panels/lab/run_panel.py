@@ -18,14 +18,13 @@ from app.ui.panels.lab.run_settings_panel import RunSettingsPanel
 from app.ui.panels.lab.runs_table import runs_table
 from app.ui.panels.options import show_options
 from app.ui.playback import Playback
-from app.ui.plots import Axes, Curve, Plot
+from app.ui.plots import DASHED, Axes, Curve, Plot
 from app.ui.run_view import RunView
 
 ALL = "All drives"
 NO_RUN = "None yet"
 STRETCHES = {"Whole run": (0.0, np.inf), "First 5 s": (0.0, 5.0), "After 5 s": (5.0, np.inf)}
 POINTS = 350
-DASH = (6, 4)
 
 
 class RunPanel:
@@ -125,7 +124,7 @@ class RunPlots:
         for plot in self._plots:
             plot.remove()
         actual = [Curve(name, theme.leg_color(k)) for k, name in enumerate(names)]
-        wanted = [Curve(f"{name} wanted", theme.leg_color(k), 1.5, DASH) for k, name in enumerate(names)]
+        wanted = [Curve(f"{name} wanted", theme.leg_color(k), 1.5, DASHED) for k, name in enumerate(names)]
         unit = run.joint_unit
         with self._folder:
             self._plots = [

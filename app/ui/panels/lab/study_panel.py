@@ -14,21 +14,18 @@ from app.ui.downloads import offer
 from app.ui.lab.desk import ControlDesk
 from app.ui.lab.jobs import Answer
 from app.ui.panels.lab.metrics_table import metrics_table
-from app.ui.plots import Axes, Curve, Plot
+from app.ui.plots import DASHED, DOTTED, Axes, Curve, Plot
 
 Array = NDArray[np.float64]
-
-DASH = (6, 4)
-LIMIT = (2, 4)
 
 FARTHEST_DRAWN = 20.0
 """Times the set-point."""
 MOST_DRAWN_V = 1e5
 
 NOW = Curve("now", theme.ACTUAL, 2.5)
-IDEAL = Curve("ideal", theme.IDEAL, 1.5, DASH)
+IDEAL = Curve("ideal", theme.IDEAL, 1.5, DASHED)
 BASELINE = Curve("baseline", theme.BASELINE, 1.5, optional=True)
-SETPOINT = Curve("set-point", theme.REFERENCE, 1.5, DASH)
+SETPOINT = Curve("set-point", theme.REFERENCE, 1.5, DASHED)
 
 
 MARKS = (
@@ -72,7 +69,7 @@ class StepPlots:
         gui = client.gui
         self._desk = desk
         response = ResponsePlot(gui, desk, 260)
-        limits = (Curve("limit", theme.REFERENCE, 1.5, LIMIT), Curve("limit (negative)", theme.REFERENCE, 1.5, LIMIT))
+        limits = (Curve("limit", theme.REFERENCE, 1.5, DOTTED), Curve("limit (negative)", theme.REFERENCE, 1.5, DOTTED))
         volts = Axes("Time (s)", "Control signal (V)")
         self._control = Plot(gui, volts, (*limits, IDEAL, BASELINE, NOW), "Control signal", 190)
         self._table = gui.add_html("")
@@ -101,7 +98,7 @@ class FrequencyPlots:
         self._gain = Plot(
             gui, Axes(omega, "Gain of L (dB)", log_x=True), (IDEAL, BASELINE, NOW, crossover), "Open loop: gain", 200
         )
-        line = Curve("-180°", theme.REFERENCE, 1.5, LIMIT)
+        line = Curve("-180°", theme.REFERENCE, 1.5, DOTTED)
         self._phase = Plot(
             gui,
             Axes(omega, "Phase of L (deg)", log_x=True),
