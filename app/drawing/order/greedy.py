@@ -22,7 +22,7 @@ def greedy_tour(ends: Ends) -> Tour:
     missing = free // 2
     loose, near = np.arange(free), NEAR_FIRST
     while missing:
-        for a, b in _pairs(ends.points, loose, near):
+        for a, b in _pairs(ends.strewn, loose, near):
             if partner[a] < 0 and partner[b] < 0 and chain_to[a] != b:
                 partner[a], partner[b] = b, a
                 far_a, far_b = chain_to[a], chain_to[b]

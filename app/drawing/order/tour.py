@@ -25,6 +25,8 @@ Hop = tuple[int, int]
 Undo = tuple[int, Ints]
 """Where a stretch of the ring starts, and what was there."""
 
+STREWN_MM = 1e-6
+
 
 class Ends:
     """Where the ends are, what it costs to hop between them, and which are near."""
@@ -34,7 +36,10 @@ class Ends:
         self.points = np.array([*ends, home, (math.inf, math.inf)], dtype=float)
         """(2n + 2, 2) mm; the free end is infinitely far, see `HopCost.seconds`."""
         self.hop_cost = hop_cost
-        self._tree = KDTree(self.points[:-1])
+        # Where many ends coincide, all would have the same few of them as their neighbours: strew them a little.
+        strewn = np.random.default_rng(0).uniform(-STREWN_MM, STREWN_MM, (len(ends) + 1, 2))
+        self.strewn = self.points[:-1] + strewn
+        """(2n + 1, 2) mm; to look for neighbours."""
 
     def seconds(self, a: Ints, b: Ints) -> Array:
         """Of the hops between the ends a and b."""
@@ -47,13 +52,13 @@ class Ends:
         """
         size = len(self.points)
         index, seconds = np.zeros((size, count), dtype=int), np.full((size, count), np.inf)
-        k = min(count + 2, size - 1)
-        far, found = self._tree.query(self.points[:-1], k=k)
+        _, found = KDTree(self.strewn).query(self.strewn, k=min(count + 2, size - 1))
         own = found >> 1 == np.arange(size - 1)[:, None] >> 1
         last = np.argsort(own, axis=1, kind="stable")[:, :count]
         wide = last.shape[1]
         index[:-1, :wide] = np.take_along_axis(found, last, 1)
-        seconds[:-1, :wide] = np.take_along_axis(np.where(own, np.inf, self.hop_cost.seconds(far)), last, 1)
+        to_get_there = self.seconds(np.arange(size - 1)[:, None], index[:-1, :wide])
+        seconds[:-1, :wide] = np.where(np.take_along_axis(own, last, 1), np.inf, to_get_there)
         return index, seconds
 
 

@@ -17,7 +17,7 @@ FINE_PEN = 8.0
 STAIRCASE = 0.08
 """By how much of those pixels a line of pixels is wider to each side: 0 along rows and diagonals, 0.2 at most."""
 
-MAX_FINE_PIXELS = 16_000_000
+MAX_FINE_PIXELS = 20_000_000
 
 
 def render_ink(
@@ -37,7 +37,7 @@ def ink_cover(strokes: Sequence[Stroke], shape: tuple[int, int], pen: float, fin
     """The inked share (h, w) of every pixel, under a round pen `pen` pixels wide; PIXEL strokes.
 
     The pen is at least `fine_pen` samples wide if the picture is not too large. With 8, lines are right to 4 % of
-    their width and dots to 7 % of their area; with twice as many, errors are half as large.
+    their width and dots to 7 % of their area.
     """
     height, width = shape
     if not strokes:
@@ -46,7 +46,7 @@ def ink_cover(strokes: Sequence[Stroke], shape: tuple[int, int], pen: float, fin
     most = math.isqrt(MAX_FINE_PIXELS // (height * width))
     fine = max(1, min(math.ceil(fine_pen / pen) | 1, (most - 1) | 1))
     off_line = np.full((height * fine, width * fine), 255, np.uint8)
-    # cv2 counts 1/16 pixels here, and keeps strokes beyond the picture apart by itself
+    # cv2 counts 1/16 pixels here, and cuts off what lies beyond the picture
     points = [np.rint(((stroke + 0.5) * fine - 0.5) * 16).astype(np.int32) for stroke in strokes]
     cv2.polylines(off_line, points, False, 0, 1, cv2.LINE_8, 4)
     distance = cv2.distanceTransform(off_line, cv2.DIST_L2, cv2.DIST_MASK_5)

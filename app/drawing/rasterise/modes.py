@@ -28,6 +28,9 @@ RASTER_MODES: dict[str, RasterMode] = {
 """The first is the default."""
 
 MAX_PIXELS = 4_000_000
+MAX_PEN = 100
+"""Pixels."""
+
 MAX_PENS = 1_000_000
 """Area of the picture in squares of the pen's width; a sheet of A3 has 500 000 under a pen of 0.5 mm."""
 
@@ -43,6 +46,8 @@ def rasterise(grey: Grey, mode: str, mm_per_px: float, *, pen_mm: float = 0.5, *
     _check_picture(grey)
     _check_parameters(chosen, parameters)
     pen = pen_in_pixels(pen_mm, mm_per_px)
+    if pen > MAX_PEN:
+        raise DrawingError(f"The pen is more than {MAX_PEN} pixels wide; make the picture smaller or take a finer pen.")
     if grey.size / pen**2 > MAX_PENS:
         raise DrawingError("The pen is too fine for a drawing this large; take a wider pen or draw it smaller.")
     tone = tone_of(grey)

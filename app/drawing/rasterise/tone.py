@@ -22,11 +22,15 @@ from app.drawing.rasterise.types import Field, Grey, Mask, Stroke
 MAX_COVER = 0.8
 LEAST_TONE = 0.05
 
+MAX_BRUSH = 30
+"""Pixels; what is white and wider is kept free even of a wider pen, for the sake of time."""
+
 Lay = Callable[..., list[Stroke]]
 """(drive (h, w) in 0..1, inked (h, w), pen in pixels, **parameters) -> PIXEL strokes; uncalibrated."""
 
 CALIBRATION_STEPS = 17
 """Hatching has as many levels, and each is met in its middle."""
+
 CALIBRATION_PEN = 2.0
 """Width of the pen in the pixels of the calibration picture."""
 
@@ -52,7 +56,7 @@ def pen_in_pixels(pen_mm: float, mm_per_px: float) -> float:
 def inked_where(tone: Field, pen: float) -> Mask:
     """Where there may be ink at all, (h, w): not over white, unless that is narrower than the pen of `pen` pixels."""
     inked = tone >= LEAST_TONE
-    size = 2 * int(pen / 2) + 1
+    size = 2 * int(min(pen, MAX_BRUSH) / 2) + 1
     if size == 1 or inked.all():
         return inked
     brush = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (size, size))

@@ -79,7 +79,7 @@ def test_points_are_as_dense_as_wanted_and_evenly_spread():
     assert len(points) - left == pytest.approx(0.2 * 5000, rel=0.1)
     nearest = KDTree(points).query(points, 2)[0][:, 1]
     # points thrown at random are on average 0.5 / sqrt(density) from the nearest, a triangular lattice 1.07
-    assert nearest[points[:, 0] > 55].mean() > 0.75 / np.sqrt(0.2)
+    assert np.quantile(nearest[points[:, 0] > 55], 0.05) > 0.65 / np.sqrt(0.2)
 
 
 def test_too_many_points_get_fewer_everywhere():

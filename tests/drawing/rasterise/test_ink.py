@@ -38,7 +38,8 @@ points = st.lists(st.tuples(st.floats(0, 29), st.floats(0, 19)), min_size=2, max
 def test_ink_lies_where_it_is_near_enough_to_a_stroke(strokes, pen):
     found, wanted = ink_cover(strokes, (20, 30), pen), ink(strokes, (20, 30), pen, fine=round(20 / pen))
     assert np.abs(found - wanted).max() < 0.5
-    assert found.sum() == pytest.approx(wanted.sum(), rel=0.05, abs=0.3)
+    # a share of the width along the lines, and a little at their ends and at the border
+    assert abs(found.sum() - wanted.sum()) < 0.05 * wanted.sum() + 0.15 * pen + 0.1
 
 
 def test_ink_that_overlaps_counts_once():

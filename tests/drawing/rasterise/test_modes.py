@@ -46,7 +46,7 @@ def test_the_pen_is_not_down_over_white(mode, first, last, angle):
     y, x = np.mgrid[:48, :60]
     along = (x * np.cos(angle) + y * np.sin(angle)) / 80
     grey = np.clip(first + (last - first) * (along + 0.5), 0, 255).astype(np.uint8)
-    grey[10:24, 20:50] = 255
+    grey[6:26, 20:50] = 255
     strokes = draw(grey, mode)
     assert_sound(strokes, grey)
     inked = grey < 255 * 0.95
@@ -126,6 +126,7 @@ GREY = flat(0.5, 20)
         ((np.zeros((3000, 3000), np.uint8), "squiggle", 0.01), {}, "more than 4 megapixels"),
         ((GREY, "squiggle", 0.0), {}, "must be positive"),
         ((GREY, "squiggle", 0.5), {"pen_mm": float("nan")}, "must be positive"),
+        ((GREY, "squiggle", 0.001), {}, "more than 100 pixels wide"),
         ((GREY, "squiggle", 100.0), {"pen_mm": 0.1}, "too fine for a drawing this large"),
         ((GREY, "squiggle", 0.5), {"pitch": 0.1}, "Distance of rows must lie between 2 and 10, not at 0.1"),
         ((GREY, "squiggle", 0.5), {"pitch": float("nan")}, "must lie between"),

@@ -108,3 +108,11 @@ def test_the_spiral_keeps_its_turns_apart():
     crossings = radius[1:][(y[:-1] < 0) & (y[1:] >= 0) & (x[1:] > 0)]
     np.testing.assert_allclose(np.diff(crossings), 8.0, atol=0.2)
     assert 92 <= radius.max() <= 100 + 1e-9
+
+
+def test_squiggles_do_not_swing_out_over_white():
+    grey = flat(1.0, 120)
+    grey[33:87] = 255
+    y = np.concatenate(rasterise(grey, "squiggle", 0.25, pen_mm=0.5, pitch=10.0))[:, 1]
+    assert y.min() < 25 and y.max() > 95
+    assert not ((y > 33) & (y < 86)).any()
