@@ -32,6 +32,7 @@ class Gizmo:
         self._dragged: viser.TransformControlsHandle | None = None
         self._arrows: viser.TransformControlsHandle | None = None
         self._ring: viser.TransformControlsHandle | None = None
+        self._visible = True
         session.robot_changed.connect(lambda _: self.build())
         session.stance_changed.connect(self.follow)
         self.build()
@@ -46,7 +47,12 @@ class Gizmo:
         size = GIZMO_SIZE_M
         scene, position = self._client.scene, self._session.stance.position
         self._arrows = scene.add_transform_controls(
-            "/robot/gizmo", size, disable_rotations=True, depth_test=False, position=position
+            "/robot/gizmo",
+            size,
+            disable_rotations=True,
+            depth_test=False,
+            position=position,
+            visible=self._visible,
         )
         self._arrows.on_update(self._on_arrows)
         silence_gizmo_echo(self._arrows)
@@ -60,10 +66,18 @@ class Gizmo:
             disable_axes=True,
             disable_sliders=True,
             depth_test=False,
+            visible=self._visible,
         )
         self._ring.on_update(self._on_ring)
         silence_gizmo_echo(self._ring)
         self.follow(self._session.stance)
+
+    def visible(self, on: bool) -> None:
+        """Show or hide the handles, while others are shown in the same place."""
+        self._visible = on
+        for handle in (self._arrows, self._ring):
+            if handle is not None:
+                handle.visible = on
 
     def follow(self, stance: Stance) -> None:
         """Keep the handles at the tool, except the one in hand."""

@@ -7,7 +7,9 @@ from collections.abc import Callable
 
 import viser
 
+from app.ui.bench import Bench
 from app.ui.compute import Pools, Worker
+from app.ui.drawing.door import DrawingDoor
 from app.ui.ghosts import Ghosts
 from app.ui.gizmo import Gizmo
 from app.ui.lab.room import ControlRoom
@@ -53,13 +55,13 @@ class Room:
         run_javascript(client, 'document.title = "Delta Lab"')
         stage = Stage(client, session)
         RobotView(client, session, stream, self._shapes, self._worker())
-        Gizmo(client, session, stream)
+        gizmo = Gizmo(client, session, stream)
         Notice(client, session)
         client.flush()
         await asyncio.sleep(0)
         if self._closed:
             return
-        self._add_panels(stage)
+        self._add_panels(stage, gizmo)
         session.stance_changed.connect(lambda _: stream.flush())
         client.flush()
 
@@ -71,7 +73,7 @@ class Room:
         for close in self._closers:
             close()
 
-    def _add_panels(self, stage: Stage) -> None:
+    def _add_panels(self, stage: Stage, gizmo: Gizmo) -> None:
         client, session, gui = self._client, self.session, self._client.gui
         overlay = Overlay(client, session)
         ghosts = Ghosts(client, session, self._shapes)
@@ -82,10 +84,13 @@ class Room:
         with tabs.add_tab("Robot", viser.Icon.ROBOT):
             robot_panel = RobotPanel(gui, session)
         control_tab = tabs.add_tab("Control", viser.Icon.ADJUSTMENTS)
+        draw_tab = tabs.add_tab("Draw", viser.Icon.PENCIL)
         with tabs.add_tab("View", viser.Icon.EYE):
             ViewPanel(gui, session, stage, overlay)
-        lab = ControlRoom(client, session, control_tab, self._quick_worker(), self._worker, self._tell)
-        self._closers += [overlay.close, ghosts.close, robot_panel.close, lab.close]
+        bench = Bench(client)
+        lab = ControlRoom(client, session, control_tab, bench, self._quick_worker(), self._worker, self._tell)
+        drawing = DrawingDoor(client, session, gizmo, draw_tab, bench, self._quick_worker, self._worker)
+        self._closers += [overlay.close, ghosts.close, robot_panel.close, lab.close, drawing.close]
 
     def _worker(self, failed: Callable[[], None] | None = None) -> Worker:
         """A line of slow work; `failed` is called after a job of it could not be done and the user was told."""

@@ -12,6 +12,7 @@ import viser
 
 from app.robots import ROBOTS, build_robot
 from app.ui.compute import make_pools
+from app.ui.drawing.warm_up import warm_up_server, warm_up_worker
 from app.ui.guard import Guard
 from app.ui.jobs import warm_up
 from app.ui.lab.jobs import warm_up as warm_up_control
@@ -24,8 +25,8 @@ from app.ui.state import Memory, ViewOptions
 from app.ui.viser_adapter import browser_id, start_server, stop_server
 from app.ui.workspace_view import CACHE_SIZE, WorkspaceCache
 
-REMEMBERED = 500
-"""Browsers that find their robot again after a reload; the longest absent are forgotten first."""
+REMEMBERED = 200
+"""Browsers that find their robot again after a reload; the longest absent are forgotten first. A picture takes 1 MB."""
 
 WARM_UP_AFTER_S = 1.0
 
@@ -63,6 +64,9 @@ class Lab:
     def warm_up(self) -> None:
         """Start the workers and build the other robots' shapes while nobody waits for them."""
         self._pools.quick.submit(warm_up_control)
+        for pool in self._pools:
+            pool.submit(warm_up_worker)
+        warm_up_server()
         self._pools.slow.submit(warm_up)
         for name in ROBOTS:
             self._shapes.learn(build_robot(name, {}))

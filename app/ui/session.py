@@ -47,6 +47,8 @@ class Session:
         self.view = memory.view
         self.control = memory.control
         """Settings of the control lab, for the next visit."""
+        self.drawing = memory.drawing
+        """What was drawn, for the next visit."""
         self.robot = build_robot(self.robot_name, self.dimensions)
         pose = memory.pose if memory.pose and self.robot.reach(memory.pose).ok else tuple(self.robot.home.tolist())
         self.stance = self._standing(pose)
@@ -54,7 +56,7 @@ class Session:
     @property
     def memory(self) -> Memory:
         """What to keep for the next visit."""
-        return Memory(self.robot_name, dict(self.dimensions), self.stance.pose, self.view, self.control)
+        return Memory(self.robot_name, dict(self.dimensions), self.stance.pose, self.view, self.control, self.drawing)
 
     def choose_robot(self, name: str) -> None:
         """Take another robot, with its default dimensions, at home."""

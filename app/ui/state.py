@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from app.robots import Reach
 from app.ui.lab.settings import ControlSettings
+
+if TYPE_CHECKING:
+    from app.drawing.source import Source
+    from app.ui.drawing.settings import DrawingSettings
 
 Pose = tuple[float, ...]
 Joints = tuple[float, ...]
@@ -63,6 +67,14 @@ class ViewOptions:
     """Shadows cost a computer without a graphics processor half of its frames."""
 
 
+class DrawingMemory(NamedTuple):
+    """What was drawn, and how."""
+
+    settings: DrawingSettings
+    source: Source | None
+    source_name: str
+
+
 @dataclass(frozen=True)
 class Memory:
     """What a browser finds again after a reload."""
@@ -74,3 +86,5 @@ class Memory:
     view: ViewOptions = ViewOptions()
     control: ControlSettings | None = None
     """None before the control lab was used."""
+    drawing: DrawingMemory | None = None
+    """None before anything was drawn."""

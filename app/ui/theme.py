@@ -26,6 +26,12 @@ MARK_2: Rgb = (125, 105, 215)
 """Another one in the same plot."""
 VECTOR: Rgb = (86, 86, 96)
 """Vectors that belong to no leg."""
+INK: Rgb = (38, 38, 46)
+"""What a pen has drawn."""
+PLAN: Rgb = (176, 180, 190)
+"""What it is going to draw."""
+PAPER: Rgb = (252, 252, 250)
+PAPER_EDGE: Rgb = (150, 154, 164)
 
 LIGHT_FLOOR: Rgb = (244, 245, 247)
 DARK_FLOOR: Rgb = (30, 33, 38)

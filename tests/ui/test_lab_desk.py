@@ -19,11 +19,12 @@ from app.robots import ROBOTS
 from app.simulation import circle_tracking
 from app.ui.compute import Worker
 from app.ui.lab.desk import ControlDesk
-from app.ui.lab.jobs import Refusal, answer, run_csv, run_robot
+from app.ui.lab.jobs import answer, run_csv, run_robot
 from app.ui.lab.motor_jobs import Identified, MotorTest, move_and_identify, read_and_identify, record
 from app.ui.lab.run_book import KEPT, RunBook
 from app.ui.lab.settings import BY_HAND, ControlSettings, changed, default_settings
 from app.ui.lab.traps import TRAPS, entered, traps_for
+from app.ui.refusal import Refusal
 from app.ui.session import Session
 from app.ui.state import Memory
 

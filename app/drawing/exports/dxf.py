@@ -6,13 +6,13 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from app.drawing.exports.strokes import Sheet, Stroke, checked_sheet, checked_strokes
+from app.drawing.exports.strokes import SheetSize, Stroke, checked_sheet, checked_strokes
 
 LAYER = "DRAWING"
 CLOSED, OPEN = 1, 0
 
 
-def write_dxf(strokes: Sequence[Stroke], sheet_mm: Sheet) -> str:
+def write_dxf(strokes: Sequence[Stroke], sheet_mm: SheetSize) -> str:
     """One polyline a stroke in the order of drawing; mm from the sheet's lower left corner, y up.
 
     R12 has no units: tell the program that reads it that they are millimetres.

@@ -22,7 +22,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from app.drawing.errors import DrawingError
-from app.drawing.exports.strokes import LARGEST_MM, Sheet, Stroke, checked_sheet, checked_strokes
+from app.drawing.exports.strokes import LARGEST_MM, SheetSize, Stroke, checked_sheet, checked_strokes
 
 TITLE = "# Ptos_Dibujo 1"
 SHEET = "# sheet_mm"
@@ -32,7 +32,7 @@ MAX_CHARACTERS = 50_000_000
 Point = tuple[float, float, float]
 
 
-def write_points_file(strokes: Sequence[Stroke], sheet_mm: Sheet, *, lift_mm: float = LIFT_MM) -> str:
+def write_points_file(strokes: Sequence[Stroke], sheet_mm: SheetSize, *, lift_mm: float = LIFT_MM) -> str:
     """Text as described above."""
     if not 0.0 < lift_mm <= LARGEST_MM:
         raise DrawingError(f"A lift of {lift_mm:g} mm does not lift the pen; give millimetres above zero.")
@@ -46,7 +46,7 @@ def write_points_file(strokes: Sequence[Stroke], sheet_mm: Sheet, *, lift_mm: fl
     return "\n".join([*lines, ""])
 
 
-def read_points_file(text: str) -> tuple[list[Stroke], Sheet]:
+def read_points_file(text: str) -> tuple[list[Stroke], SheetSize]:
     """Strokes (n, 2) and sheet in mm. DrawingError, with the line's number, for anything but that format."""
     if len(text) > MAX_CHARACTERS:
         raise DrawingError(f"The file of points is larger than {MAX_CHARACTERS // 1_000_000} MB; simplify the drawing.")

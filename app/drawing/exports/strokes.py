@@ -15,7 +15,7 @@ LARGEST_MM = 1e5
 Stroke = NDArray[np.float64]
 """(n, 2) mm from the middle of the sheet, y up."""
 
-Sheet = tuple[float, float]
+SheetSize = tuple[float, float]
 """Width and height in mm."""
 
 
@@ -30,7 +30,7 @@ def checked_strokes(strokes: Sequence[Stroke]) -> list[Stroke]:
     return arrays
 
 
-def checked_sheet(sheet_mm: Sheet) -> Sheet:
+def checked_sheet(sheet_mm: SheetSize) -> SheetSize:
     """Width and height; DrawingError if there is no such sheet."""
     width, height = (float(side) for side in sheet_mm)
     if not (0.0 < width <= LARGEST_MM and 0.0 < height <= LARGEST_MM):
@@ -38,7 +38,7 @@ def checked_sheet(sheet_mm: Sheet) -> Sheet:
     return width, height
 
 
-def from_corner(points: Stroke, sheet_mm: Sheet) -> Stroke:
+def from_corner(points: Stroke, sheet_mm: SheetSize) -> Stroke:
     """(n, 2) mm from the sheet's upper left corner, y down, as pictures have it."""
     return points * (1.0, -1.0) + np.array(sheet_mm) / 2.0
 

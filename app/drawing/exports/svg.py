@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from app.drawing.exports.strokes import Sheet, Stroke, checked_sheet, checked_strokes, from_corner, hops
+from app.drawing.exports.strokes import SheetSize, Stroke, checked_sheet, checked_strokes, from_corner, hops
 
 DECIMALS = 4
 """Of a millimetre."""
@@ -24,7 +24,7 @@ PEN_UP = """</g>
 """
 
 
-def write_svg(strokes: Sequence[Stroke], sheet_mm: Sheet, *, pen_mm: float = 0.5) -> str:
+def write_svg(strokes: Sequence[Stroke], sheet_mm: SheetSize, *, pen_mm: float = 0.5) -> str:
     """One polyline a stroke in the order of drawing, and a hidden layer of the moves between them.
 
     One unit is 1 mm, the origin is the sheet's upper left corner, y points down; numbers are rounded to 0.1 um.

@@ -13,7 +13,7 @@ PENS = "pen widths"
 
 @dataclass(frozen=True)
 class Parameter:
-    """One slider."""
+    """One slider, or one choice."""
 
     name: str
     """Keyword argument of the mode's `draw`."""
@@ -22,7 +22,14 @@ class Parameter:
     low: float
     high: float
     step: float
+    """Values are `low` plus so many steps."""
     unit: str = ""
+    auto: bool = False
+    """Whether it may be "auto", and is by default: then `default` is only where a slider may begin."""
+    choices: tuple[float, ...] = ()
+    """The only values, if they are few."""
+    explanation: str = ""
+    """What it does to the drawing, in a sentence."""
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ from app.drawing.toolpath.filter import STEP_S
 from app.drawing.toolpath.hops import between, find_pace
 from app.drawing.toolpath.limits import rate_limits
 from app.drawing.toolpath.lookahead import find_bounds, find_profile
+from app.drawing.toolpath.pen import PenSettings, default_pen
 from app.drawing.toolpath.placement import Placement
 from app.drawing.toolpath.polyline import lay_out
 from app.drawing.toolpath.timeline import Timeline, assemble, sample_count
@@ -25,25 +26,6 @@ from app.robots.robot import Array
 LONGEST_S = 3600.0
 ROUNDS, LOCAL_ROUNDS = 20, 8
 """At first the plan is slowed down around what exceeds a limit, in the end along whole strokes."""
-
-
-@dataclass(frozen=True)
-class PenSettings:
-    """How the pen is moved."""
-
-    speed_mm_s: float = 80.0
-    """On the paper, where the joints allow it."""
-    up_speed_mm_s: float = 300.0
-    """Above the paper."""
-    lift_mm: float = 4.0
-    lift: bool = True
-    """Without it the pen stays on the paper between the strokes, as with the robot of the paper."""
-
-    def __post_init__(self) -> None:
-        if not (1.0 <= self.speed_mm_s <= 2000.0 and 1.0 <= self.up_speed_mm_s <= 2000.0):
-            raise DrawingError("A pen's speed must lie between 1 and 2000 mm/s; choose a speed in this range.")
-        if not 0.5 <= self.lift_mm <= 50.0:
-            raise DrawingError("The pen is lifted by 0.5 to 50 mm; choose a height in this range.")
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,17 +76,18 @@ def plan_toolpath(
 
     Args:
         strokes: (n, 2) each, sheet millimetres.
+        pen: by default `default_pen(robot)`.
 
     Raises:
         ToolpathError: where the robot cannot reach; the message names the stroke and the limit.
         DrawingError: for no strokes, strokes that are no points, or a drawing of more than an hour.
     """
-    pen = pen or PenSettings()
+    pen = pen or default_pen(robot)
     lines, limits = lay_out(strokes, placement), rate_limits(robot)
     paper, lift = placement.height_m, 1e-3 * pen.lift_mm
     check_lines(lines, robot, paper, lift)
     bounds = find_bounds(lines, robot, paper, limits, 1e-3 * pen.speed_mm_s)
-    hops = between(lines.points[lines.first[:-1]], lines.points[lines.last], paper, lift, lift=pen.lift)
+    hops = between(lines.points[lines.first[:-1]], lines.points[lines.last], paper, lift, lift=pen.rises)
     pace = find_pace(hops, robot, limits, 1e-3 * pen.up_speed_mm_s)
     ease = Ease(np.ones(len(lines.points)), np.ones(len(hops.top)))
     for attempt in range(ROUNDS):
@@ -143,7 +126,7 @@ def _check_duration(samples: int) -> None:
 def _toolpath(timeline: Timeline, q: Array, loads: Loads, pen: PenSettings) -> Toolpath:
     stroke, block = timeline.stroke, timeline.block
     travelling = (stroke < 0) & (block > 0) & (block < block[-1])
-    down = (stroke >= 0) | (travelling & (not pen.lift))
+    down = (stroke >= 0) | (travelling & pen.marks_hops)
     step = np.linalg.norm(np.diff(timeline.pose[:, :3], axis=0), axis=1)
     stray = down[1:] & down[:-1] & ((stroke[1:] < 0) | (block[1:] != block[:-1]))
     return Toolpath(

@@ -57,7 +57,9 @@ class Polylines:
     @cached_property
     def inner(self) -> NDArray[np.int64]:
         """Vertices with a segment on either side."""
-        return np.setdiff1d(np.arange(len(self.points)), np.concatenate([self.first[:-1], self.last]))
+        between = np.ones(len(self.points), dtype=bool)
+        between[self.first[:-1]] = between[self.last] = False
+        return np.flatnonzero(between)
 
 
 def lay_out(strokes: Sequence[Array], placement: Placement) -> Polylines:

@@ -62,7 +62,8 @@ def assemble(lines: Polylines, profile: Profile, hops: Hops, pace: Pace, robot: 
 
 
 def _whole_steps(pace: Pace) -> NDArray[np.int64]:
-    return np.maximum(np.ceil(pace.total / STEP_S - 1e-6), 1).astype(int)
+    """Of each hop; at least two, so that there is a sample between any two strokes."""
+    return np.maximum(np.ceil(pace.total / STEP_S - 1e-6), 2).astype(int)
 
 
 def _hop_samples(steps: NDArray[np.int64]) -> NDArray[np.int64]:

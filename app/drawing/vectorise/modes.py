@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,22 @@ from app.drawing.vectorise.outline import outline_edges
 from app.drawing.vectorise.paper_contours import paper_contours
 from app.drawing.vectorise.sketch import sketch_lines
 from app.drawing.vectorise.tracing import Finish, trace_strokes
+
+
+class Own(NamedTuple):
+    """What a mode takes where nothing else is wanted."""
+
+    shortest_mm: float
+    join_mm: float
+
+
+OWN: dict[str, Own] = {
+    "sketch": Own(shortest_mm=3.0, join_mm=1.5),
+    "canny": Own(shortest_mm=2.0, join_mm=1.5),
+    "centreline": Own(shortest_mm=0.8, join_mm=0.8),
+    "outline": Own(shortest_mm=0.8, join_mm=1.5),
+}
+"""Of all modes but paper, which has neither."""
 
 
 @dataclass(frozen=True)
@@ -50,10 +66,10 @@ class Settings:
             if value is not None and not 0.0 <= value <= 1000.0:
                 raise DrawingError(f"The setting {name} cannot be {value:g}; choose 0 or more.")
 
-    def finish(self, shortest_mm: float, join_mm: float) -> Finish:
+    def finish(self, own: Own) -> Finish:
         """What follows the tracing, with a mode's own values where none are wanted."""
-        shortest_mm = shortest_mm if self.shortest_mm is None else self.shortest_mm
-        join_mm = join_mm if self.join_mm is None else self.join_mm
+        shortest_mm = own.shortest_mm if self.shortest_mm is None else self.shortest_mm
+        join_mm = own.join_mm if self.join_mm is None else self.join_mm
         return Finish(shortest_mm, join_mm, self.smooth_px, self.tolerance_mm)
 
 
@@ -96,21 +112,21 @@ def vectorise(grey: Grey, mode: str, mm_per_px: float, **parameters: Any) -> Vec
 
 def _canny(grey: Grey, mm_per_px: float, settings: Settings) -> Drawn:
     edges, ridge = canny_edges(grey, settings.aperture, settings.low, settings.high)
-    return trace_strokes(edges, ridge, mm_per_px, settings.finish(shortest_mm=2.0, join_mm=1.5)), edges
+    return trace_strokes(edges, ridge, mm_per_px, settings.finish(OWN["canny"])), edges
 
 
 def _sketch(grey: Grey, mm_per_px: float, settings: Settings) -> Drawn:
     lines, ridge = sketch_lines(grey, settings.strong, settings.weak)
-    return trace_strokes(lines, ridge, mm_per_px, settings.finish(shortest_mm=3.0, join_mm=1.5)), lines
+    return trace_strokes(lines, ridge, mm_per_px, settings.finish(OWN["sketch"])), lines
 
 
 def _centreline(grey: Grey, mm_per_px: float, settings: Settings) -> Drawn:
-    return centrelines(grey, mm_per_px, settings.finish(shortest_mm=0.8, join_mm=0.8))
+    return centrelines(grey, mm_per_px, settings.finish(OWN["centreline"]))
 
 
 def _outline(grey: Grey, mm_per_px: float, settings: Settings) -> Drawn:
     edges, ridge = outline_edges(grey, settings.aperture, settings.low, settings.high)
-    return trace_strokes(edges, ridge, mm_per_px, settings.finish(shortest_mm=0.8, join_mm=1.5)), edges
+    return trace_strokes(edges, ridge, mm_per_px, settings.finish(OWN["outline"])), edges
 
 
 def _paper(grey: Grey, mm_per_px: float, settings: Settings) -> Drawn:

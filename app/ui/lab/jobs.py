@@ -13,6 +13,7 @@ from app.simulation import Run, Task, TrackingError, follow_sampled, follow_simu
 from app.simulation.hardware import Hardware
 from app.simulation.step_study import Study, study
 from app.ui.lab.settings import STARTS, ControlSettings, default_settings
+from app.ui.refusal import Refusal
 
 PAPER_LIMIT_PERCENT = 100.0
 
@@ -49,12 +50,6 @@ def tuned(settings: ControlSettings) -> tuple[ControlSettings, str]:
     wish = Wish(settings.response_time_s, settings.transient, settings.sampling.period_s)
     found = METHODS[settings.tuning].tune(settings.motor, wish)
     return replace(settings, pid=replace(found.pid, b=settings.pid.b, c=settings.pid.c)), found.note
-
-
-class Refusal(NamedTuple):
-    """Why a run could not be made, as a sentence."""
-
-    reason: str
 
 
 def run_robot(settings: ControlSettings, dimensions: dict[str, float]) -> Run | Refusal:

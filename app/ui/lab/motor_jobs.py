@@ -13,7 +13,7 @@ from app.control.identification import Identification, IdentificationError, iden
 from app.control.identification.excitation import EXCITATIONS, pulses
 from app.control.identification.recordings import Recording, RecordingError, read_recording
 from app.simulation.hardware import FINE_STEP_S, Hardware, sensor, shaft
-from app.ui.lab.jobs import Refusal
+from app.ui.refusal import Refusal
 
 PERIOD_S = 0.01
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 import viser
 
+from app.ui.bench import Bench
 from app.ui.compute import Worker
 from app.ui.lab.desk import ControlDesk
 from app.ui.lab.run_book import RunBook
@@ -21,13 +22,6 @@ from app.ui.plots import PLOT_STYLE
 from app.ui.session import Session
 from app.ui.tab_bell import on_tab_opened
 
-WIDTH = 420
-ROOM_FOR_BOTH_PX = 800
-"""Width of the picture of the robot, before the plots take their part of it."""
-
-PHONE_PICTURE_PX = 450
-"""A narrower picture of the robot is a phone's; a tablet's is wider even beside the panels."""
-
 PHONE_PLOT_PX = 140
 """On a phone the plots are a section further down, so the response also stands above the sliders, and stays there."""
 
@@ -40,6 +34,7 @@ class ControlRoom:
         client: viser.ClientHandle,
         session: Session,
         tab: viser.GuiTabHandle,
+        bench: Bench,
         quick: Worker,
         slow: Callable[[Callable[[], None] | None], Worker],
         tell: Callable[[str], None],
@@ -47,6 +42,7 @@ class ControlRoom:
         self._client = client
         self._session = session
         self._tab = tab
+        self._bench = bench
         self._quick = quick
         self._slow = slow
         self._tell = tell
@@ -62,18 +58,10 @@ class ControlRoom:
 
     async def _open(self) -> None:
         if self._panel is not None:
-            self._panel.expand()
+            self._bench.show(self._panel)
         elif not self._building:
             self._building = True
             await self._build()
-
-    def _place(self, panel: viser.PanelHandle) -> None:
-        """On the left, where the robot keeps enough room beside it; on a tablet below the settings."""
-        if self._client.camera.image_width < ROOM_FOR_BOTH_PX:
-            panel.dock_below(self._client.gui.main_panel)
-        else:
-            panel.dock_left()
-            panel.set_width(WIDTH)
 
     async def _build(self) -> None:
         """Panel by panel: others get their turn between them."""
@@ -81,8 +69,7 @@ class ControlRoom:
         client.gui.add_html(PLOT_STYLE)
         desk = ControlDesk(session, self._quick)
         book = RunBook(session, self._slow(lambda: book.failed()), self._tell)
-        panel = client.gui.add_panel()
-        self._place(panel)
+        panel = self._bench.add_panel()
         for furnish in (
             lambda: self._add_settings(desk, book),
             lambda: self._add_plots(panel, desk),
@@ -95,13 +82,14 @@ class ControlRoom:
             if self._closed:
                 return
         self._panel = panel
+        self._bench.show(panel)
         desk.answered.connect(lambda _: client.flush())
         desk.open()
 
     def _add_settings(self, desk: ControlDesk, book: RunBook) -> None:
         client = self._client
         with self._tab:
-            if client.camera.image_width < PHONE_PICTURE_PX:
+            if self._bench.on_a_phone:
                 ResponsePlot(client.gui, desk, PHONE_PLOT_PX)
             ControlPanel(client.gui, desk, lambda trap: book.request(*variants(desk.settings, TRAPS[trap].runs)))
 

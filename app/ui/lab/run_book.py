@@ -8,8 +8,9 @@ from collections.abc import Callable
 from app.robots import Robot
 from app.simulation import Run
 from app.ui.compute import Worker
-from app.ui.lab.jobs import Refusal, run_robot
+from app.ui.lab.jobs import run_robot
 from app.ui.lab.settings import ControlSettings
+from app.ui.refusal import Refusal
 from app.ui.session import Session, Signal
 
 KEPT = 8

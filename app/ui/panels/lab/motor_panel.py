@@ -16,11 +16,11 @@ from app.ui import theme
 from app.ui.compute import Worker
 from app.ui.downloads import send
 from app.ui.lab.desk import ControlDesk
-from app.ui.lab.jobs import Refusal
 from app.ui.lab.motor_jobs import Identified, MotorTest, move_and_identify, read_and_identify, thinned
 from app.ui.panels.lab.metrics_table import shown
 from app.ui.panels.text import small
 from app.ui.plots import Axes, Curve, Plot, csv_table
+from app.ui.refusal import Refusal
 
 POINTS = 400
 TITLES = {excitation.title: name for name, excitation in EXCITATIONS.items()}

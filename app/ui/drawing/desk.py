@@ -1,0 +1,209 @@
+"""The drawing desk of one browser: the picture, its strokes, the robot's plan. No widgets here.
+
+A change asks a worker for new strokes; the newest wins. Then a slower worker plans the robot's way, and looks for a
+better order while the student looks at the drawing. What cannot be drawn leaves the last drawing as it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.drawing.order import Improvement
+from app.drawing.source import Source, strokes_source
+from app.drawing.toolpath import Placement, default_pen, default_placement
+from app.robots import Robot
+from app.ui.compute import Worker
+from app.ui.drawing import jobs
+from app.ui.drawing.jobs import Improved, Plan, Setup, Sketch, TooDense
+from app.ui.drawing.settings import DrawingSettings, default_settings, resized, turned, with_mode, with_preset
+from app.ui.refusal import Refusal
+from app.ui.session import Session, Signal
+from app.ui.state import DrawingMemory
+
+FIRST_SAMPLE = "cat"
+IMPROVE_S = 0.5
+"""At a time, so that others get their turn."""
+
+ROUNDS = 4
+"""Of improvement of one drawing."""
+
+
+class DrawingDesk:
+    """The state behind every panel of the tab Draw."""
+
+    def __init__(self, session: Session, quick: Worker, reader: Worker, planner: Worker) -> None:
+        self.settings_changed: Signal[DrawingSettings] = Signal()
+        self.sketched: Signal[Sketch] = Signal()
+        """Another drawing is shown."""
+        self.moved: Signal[list[NDArray[np.bool_]]] = Signal()
+        """The sheet is being moved: which points would be out of reach there."""
+        self.planned: Signal[Plan | None] = Signal()
+        """The way along the drawing that is shown; None while it is being planned."""
+        self.refused: Signal[Refusal | TooDense | None] = Signal()
+        """Why the last change could not be drawn; None when all is well again."""
+        self._session = session
+        self._quick, self._reader, self._planner = quick, reader, planner
+        memory = session.drawing
+        self.settings = memory.settings if memory else default_settings(session.robot)
+        self.source: Source | None = memory.source if memory else None
+        self.source_name = memory.source_name if memory else FIRST_SAMPLE
+        """Key of the sample, or what else is drawn."""
+        self.sketch: Sketch | None = None
+        self.plan: Plan | None = None
+        self.refusal: Refusal | TooDense | None = None
+        self.settled: Callable[[], bool] = lambda: True
+        """Whether the drawing may be exchanged for a quicker one: not while the robot draws it."""
+        self._improvement: Improvement | None = None
+        self._rounds = 0
+        session.robot_changed.connect(self._follow_robot)
+
+    @property
+    def placement(self) -> Placement:
+        return self.settings.placement or default_placement(self._session.robot)
+
+    @property
+    def setup(self) -> Setup:
+        session = self._session
+        return Setup(session.robot_name, dict(session.dimensions), self.placement, self.settings.pen)
+
+    def open(self) -> None:
+        """Somebody looks at the tab for the first time."""
+        if self.source is None:
+            self.take_sample(FIRST_SAMPLE)
+        else:
+            self._ask()
+
+    def take_sample(self, name: str) -> None:
+        self._read(name, jobs.read_sample, name)
+
+    def take_file(self, name: str, content: bytes) -> None:
+        self._read(name, jobs.read, name, content)
+
+    def take_text(self, text: str) -> None:
+        self._read("text", jobs.read_text, text)
+
+    def take_strokes(self, strokes: list[NDArray[np.float64]]) -> None:
+        """Drawn by hand, sheet mm."""
+        if strokes:
+            self._receive_source("hand", strokes_source("By hand", strokes))
+
+    def turn(self, **knobs: Any) -> None:
+        """Set parameters of the mode, or margin, scale and width of the pen."""
+        self._change(turned(self.settings, **knobs))
+
+    def choose_mode(self, mode: str) -> None:
+        self._change(with_mode(self.settings, mode))
+
+    def choose_preset(self, name: str) -> None:
+        self._change(with_preset(self.settings, name))
+
+    def choose_sheet(self, sheet: str, landscape: bool) -> None:
+        self._change(resized(self.settings, sheet, landscape))
+
+    def draw_coarser(self) -> None:
+        """Take the settings that a refusal has offered."""
+        if isinstance(self.refusal, TooDense):
+            self.turn(**self.refusal.coarser)
+
+    def set_pen(self, **values: Any) -> None:
+        """Change how the pen is moved: the strokes stay as they are.
+
+        Raises DrawingError for what no pen can do.
+        """
+        self._keep(replace(self.settings, pen=replace(self.settings.pen, **values)))
+        self._replace_sheet()
+
+    def move_sheet(self, placement: Placement | None, *, finished: bool = True) -> None:
+        """Lay the sheet elsewhere, None: where the robot has room around it. The drawing is planned when finished."""
+        self._keep(replace(self.settings, placement=placement))
+        if finished:
+            self._replace_sheet()
+        elif self.sketch is not None:
+            self._quick.request(self.moved.emit, jobs.outside_of, self.sketch.strokes, self.setup)
+
+    def _change(self, settings: DrawingSettings) -> None:
+        self._keep(settings)
+        self._ask()
+
+    def _keep(self, settings: DrawingSettings) -> None:
+        self.settings = settings
+        self._session.drawing = DrawingMemory(settings, self.source, self.source_name)
+        self.settings_changed.emit(settings)
+
+    def _read(self, name: str, job: Callable[..., Source | Refusal], *arguments: object) -> None:
+        self._reader.request(lambda result: self._receive_source(name, result), job, *arguments)
+
+    def _receive_source(self, name: str, result: Source | Refusal) -> None:
+        if isinstance(result, Refusal):
+            self._refuse(result)
+            self.settings_changed.emit(self.settings)
+            return
+        self.source, self.source_name = result, name
+        self._change(self.settings)
+
+    def _ask(self) -> None:
+        if self.source is not None:
+            self._quick.request(self._receive, jobs.sketch, self.source, self.settings.look, self.setup)
+
+    def _replace_sheet(self) -> None:
+        """The strokes stay; unless others are on their way, which then come for this sheet."""
+        if self.sketch is None or self.sketch.look != self.settings.look:
+            self._ask()
+        else:
+            self._quick.request(self._receive, jobs.placed, self.sketch, self.setup)
+
+    def _receive(self, result: Sketch | Refusal | TooDense) -> None:
+        if not isinstance(result, Sketch):
+            self._refuse(result)
+            return
+        self._refuse(None)
+        self.sketch, self.plan = result, None
+        self._improvement, self._rounds = Improvement(result.strokes), 0
+        self.sketched.emit(result)
+        self.planned.emit(None)
+        self._planner.request(self._receive_plan, jobs.plan, result.strokes, result.setup)
+
+    def _receive_plan(self, result: Plan | Refusal) -> None:
+        if isinstance(result, Refusal):
+            self._refuse(result)
+            return
+        self.plan = result
+        self.planned.emit(result)
+        self._look_for_better()
+
+    def _look_for_better(self) -> None:
+        if self.sketch is None or self.plan is None or self._improvement is None:
+            return
+        if self._rounds < ROUNDS and jobs.can_improve(self.sketch) and not self._improvement.finished:
+            self._rounds += 1
+            task = (self._improvement, self.sketch, self.plan, IMPROVE_S)
+            self._planner.request(self._receive_better, jobs.improve, *task)
+
+    def _receive_better(self, result: Improved | None) -> None:
+        if result is None or not self.settled():
+            return
+        self._improvement, self.sketch, self.plan = result.state, result.sketch, result.plan
+        self.sketched.emit(result.sketch)
+        self.planned.emit(result.plan)
+        self._look_for_better()
+
+    def _refuse(self, refusal: Refusal | TooDense | None) -> None:
+        if refusal is not None or self.refusal is not None:
+            self.refusal = refusal
+            self.refused.emit(refusal)
+
+    def _follow_robot(self, robot: Robot) -> None:
+        """Another robot has its own place for the sheet, and its own lift."""
+        if self.sketch is None:
+            self.settings = replace(self.settings, placement=None)
+            return
+        same = robot.name == self.sketch.setup.robot
+        pen = self.settings.pen if same else replace(self.settings.pen, lift_mm=default_pen(robot).lift_mm)
+        placement = self.settings.placement if same else None
+        self._keep(replace(self.settings, placement=placement, pen=pen))
+        self._replace_sheet()

@@ -1,0 +1,108 @@
+"""The tab Draw of one browser, put together: what and how to draw on the right, the drawing on the left."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+
+import viser
+
+from app.ui.bench import Bench
+from app.ui.compute import Worker
+from app.ui.drawing.desk import DrawingDesk
+from app.ui.drawing.player import DrawingPlayer
+from app.ui.drawing.scene import DrawingScene
+from app.ui.drawing.series import Series
+from app.ui.gizmo import Gizmo
+from app.ui.panels.drawing.compare_panel import ComparePanel
+from app.ui.panels.drawing.export_panel import ExportPanel
+from app.ui.panels.drawing.laser_panel import LaserPanel
+from app.ui.panels.drawing.look_panel import LookPanel
+from app.ui.panels.drawing.pen_panel import PenPanel
+from app.ui.panels.drawing.play_panel import PlayPanel
+from app.ui.panels.drawing.preview_panel import PreviewPanel
+from app.ui.panels.drawing.sheet_panel import SheetPanel
+from app.ui.panels.drawing.source_panel import SourcePanel
+from app.ui.playback import Playback
+from app.ui.plots import PLOT_STYLE
+from app.ui.session import Session
+
+PHONE_PICTURE = "20vh"
+"""Height of the drawing that also stands above the settings on a phone, where the panels are far apart."""
+
+
+class DrawingRoom:
+    """Built when the tab is opened for the first time."""
+
+    def __init__(
+        self,
+        client: viser.ClientHandle,
+        session: Session,
+        gizmo: Gizmo,
+        tab: viser.GuiTabHandle,
+        bench: Bench,
+        quick: Callable[[], Worker],
+        slow: Callable[[Callable[[], None] | None], Worker],
+    ) -> None:
+        self._client = client
+        self._tab = tab
+        self._bench = bench
+        self._quick = quick
+        self._slow = slow
+        self.desk = DrawingDesk(session, quick(), quick(), slow(None))
+        self._playback = Playback(session)
+        self._player = DrawingPlayer(session, self._playback)
+        self._scene = DrawingScene(client, session, gizmo, self.desk, self._player)
+        self._panel = bench.add_panel()
+        self._plays: list[PlayPanel] = []
+        self._closed = False
+        bench.shown.connect(lambda panel: self._scene.visible(panel is self._panel))
+
+    async def build(self) -> None:
+        """Panel by panel: others get their turn between them."""
+        self._client.gui.add_html(PLOT_STYLE)
+        for furnish in (self._add_drawing, self._add_settings, self._add_comparisons):
+            furnish()
+            self._client.flush()
+            await asyncio.sleep(0)
+            if self._closed:
+                return
+        self.show()
+        for signal in (self.desk.sketched, self.desk.planned, self.desk.moved):
+            signal.connect(lambda _: self._client.flush())
+        self.desk.open()
+
+    def show(self) -> None:
+        self._bench.show(self._panel)
+
+    def close(self) -> None:
+        self._closed = True
+        self._playback.pause()
+        self._scene.close()
+        for play in self._plays:
+            play.close()
+
+    def _add_settings(self) -> None:
+        client, desk = self._client, self.desk
+        with self._tab:
+            if self._bench.on_a_phone:
+                PreviewPanel(client.gui, desk, height=PHONE_PICTURE, table=False)
+                self._plays.append(PlayPanel(client.gui, desk, self._player))
+            SourcePanel(client, desk)
+            LookPanel(client.gui, desk)
+            SheetPanel(client.gui, desk, self._scene.placing)
+            PenPanel(client.gui, desk)
+
+    def _add_drawing(self) -> None:
+        client, desk = self._client, self.desk
+        with self._panel.add_tab("Drawing", viser.Icon.PENCIL):
+            PreviewPanel(client.gui, desk)
+            if not self._bench.on_a_phone:
+                self._plays.append(PlayPanel(client.gui, desk, self._player))
+            LaserPanel(client.gui, desk)
+            ExportPanel(client, desk, self._slow(None))
+
+    def _add_comparisons(self) -> None:
+        with self._panel.add_tab("Compare", viser.Icon.SCALE):
+            series = Series(self._slow(lambda: series.failed()))
+            ComparePanel(self._client, self.desk, series, self._quick())

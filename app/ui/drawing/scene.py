@@ -1,0 +1,58 @@
+"""What the desk decides, shown in 3-D: the sheet with its plan, the ink, and the robot that draws."""
+
+from __future__ import annotations
+
+import viser
+
+from app.ui.drawing.desk import DrawingDesk
+from app.ui.drawing.ink_view import InkView
+from app.ui.drawing.jobs import Plan, Sketch
+from app.ui.drawing.player import DrawingPlayer
+from app.ui.drawing.sheet_view import SheetView
+from app.ui.gizmo import Gizmo
+from app.ui.session import Session
+
+
+class DrawingScene:
+    """Connects desk, sheet, ink and player."""
+
+    def __init__(
+        self, client: viser.ClientHandle, session: Session, gizmo: Gizmo, desk: DrawingDesk, player: DrawingPlayer
+    ) -> None:
+        self._gizmo = gizmo
+        self._desk = desk
+        self._player = player
+        self._sheet = SheetView(client, session)
+        self._ink = InkView(client.scene)
+        desk.settled = lambda: player.state in ("empty", "ready")
+        desk.sketched.connect(self._show)
+        desk.planned.connect(self._load)
+        desk.moved.connect(self._warn)
+        player.moved.connect(lambda _: self._ink.show(*player.drawn))
+        self._sheet.moved.connect(lambda placement: desk.move_sheet(placement, finished=False))
+        self._sheet.released.connect(desk.move_sheet)
+
+    def visible(self, on: bool) -> None:
+        """Show or hide the sheet."""
+        self._sheet.visible(on)
+
+    def placing(self, on: bool) -> None:
+        """Handles on the sheet in place of those on the robot's tool: both are at the same spot."""
+        self._sheet.placing(on)
+        self._gizmo.visible(not on)
+
+    def close(self) -> None:
+        self._ink.close()
+
+    def _show(self, sketch: Sketch) -> None:
+        self._sheet.place(sketch.setup.placement, sketch.look.sheet_mm)
+        self._sheet.show_plan(sketch.strokes, sketch.outside)
+        metres = [1e-3 * stroke for stroke in sketch.strokes]
+        self._ink.load(metres, 1e-3 * sketch.look.pen_mm, sketch.setup.pen.marks_hops)
+
+    def _load(self, plan: Plan | None) -> None:
+        self._player.load(plan.track if plan is not None else None, speed=self._player.speed)
+
+    def _warn(self, outside: list) -> None:
+        if self._desk.sketch is not None and len(outside) == len(self._desk.sketch.strokes):
+            self._sheet.show_plan(self._desk.sketch.strokes, outside)

@@ -1,0 +1,64 @@
+"""What a student has set for a drawing. Immutable: a change makes a new one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
+
+from app.drawing.compose import Look
+from app.drawing.modes import PRESETS
+from app.drawing.toolpath import PenSettings, Placement, default_pen
+from app.robots import Robot
+
+SHEETS_MM: dict[str, tuple[float, float]] = {"A6": (105.0, 148.0), "A5": (148.0, 210.0), "A4": (210.0, 297.0)}
+"""Upright."""
+
+OF_LOOK = frozenset(one.name for one in fields(Look)) - {"mode", "sheet_mm", "parameters", "weight"}
+
+
+@dataclass(frozen=True)
+class DrawingSettings:
+    """How a picture becomes strokes, on which sheet, and how the pen is moved."""
+
+    look: Look = field(default_factory=Look)
+    sheet: str = "A5"
+    landscape: bool = False
+    placement: Placement | None = None
+    """None: where the robot has room around it."""
+    pen: PenSettings = field(default_factory=PenSettings)
+
+    @property
+    def sheet_mm(self) -> tuple[float, float]:
+        """Width and height as it lies."""
+        width, height = SHEETS_MM[self.sheet]
+        return (height, width) if self.landscape else (width, height)
+
+
+def default_settings(robot: Robot) -> DrawingSettings:
+    """A5 and a photo's lines."""
+    return resized(DrawingSettings(pen=default_pen(robot)), "A5", False)
+
+
+def resized(settings: DrawingSettings, sheet: str, landscape: bool) -> DrawingSettings:
+    """On another sheet."""
+    settings = replace(settings, sheet=sheet, landscape=landscape)
+    return replace(settings, look=replace(settings.look, sheet_mm=settings.sheet_mm))
+
+
+def with_mode(settings: DrawingSettings, mode: str, parameters: Mapping[str, Any] | None = None) -> DrawingSettings:
+    """Another mode, with its own values but for `parameters`."""
+    return turned(replace(settings, look=replace(settings.look, mode=mode, parameters={})), **(parameters or {}))
+
+
+def with_preset(settings: DrawingSettings, name: str) -> DrawingSettings:
+    """One of `PRESETS`."""
+    preset = PRESETS[name]
+    return with_mode(settings, preset.mode, preset.parameters)
+
+
+def turned(settings: DrawingSettings, **knobs: Any) -> DrawingSettings:
+    """With other values of the mode's parameters, or of the picture on the sheet (`margin_mm`, `scale`, ...)."""
+    own = {name: knobs.pop(name) for name in list(knobs) if name in OF_LOOK}
+    look = replace(settings.look, **own, parameters={**settings.look.parameters, **knobs})
+    return replace(settings, look=look)

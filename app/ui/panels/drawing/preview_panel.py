@@ -1,0 +1,111 @@
+"""The drawing beside the picture it comes from, and its numbers."""
+
+from __future__ import annotations
+
+import base64
+import html
+
+import numpy as np
+import viser
+
+from app.drawing.modes import DRAWING_MODES
+from app.drawing.order import pen_up_mm
+from app.ui.drawing.desk import DrawingDesk
+from app.ui.drawing.jobs import Plan, Sketch, TooDense
+from app.ui.panels.drawing.source_panel import problem
+from app.ui.panels.text import small
+from app.ui.refusal import Refusal
+
+LEGEND = "Strokes run from blue (first) to orange (last); thin grey lines are ways with the pen up."
+STRAY = "Strokes run from blue (first) to orange (last); orange lines are ways that the pen draws for want of a lift."
+
+
+class PreviewPanel:
+    """Pictures, and a table unless there is only room for the pictures."""
+
+    def __init__(self, gui: viser.GuiApi, desk: DrawingDesk, *, height: str = "44vh", table: bool = True) -> None:
+        self._desk = desk
+        self._height = height
+        self._pictures = gui.add_html(small("The drawing is being made …"))
+        self._table = gui.add_html("", visible=table)
+        self._problem = gui.add_html("", visible=False)
+        desk.sketched.connect(self._show)
+        desk.planned.connect(lambda _: self._tabulate())
+        desk.refused.connect(self._tell)
+
+    def _show(self, sketch: Sketch) -> None:
+        figures = [] if sketch.original is None else [("Picture", "jpeg", sketch.original)]
+        figures.append(("Drawing", "png", sketch.preview))
+        shown = "".join(_figure(caption, kind, data, self._height) for caption, kind, data in figures)
+        legend = small(STRAY if sketch.setup.pen.marks_hops else LEGEND)
+        self._pictures.content = (
+            f'<div style="display:flex;gap:8px;padding:8px 12px 2px;align-items:flex-start">{shown}</div>{legend}'
+        )
+        self._tabulate()
+
+    def _tabulate(self) -> None:
+        if self._desk.sketch is not None:
+            self._table.content = numbers_table(self._desk.sketch, self._desk.plan)
+
+    def _tell(self, refusal: Refusal | TooDense | None) -> None:
+        self._problem.visible = refusal is not None
+        if refusal is not None:
+            self._problem.content = problem(refusal.reason) + small("The last drawing stays.")
+
+
+def _figure(caption: str, kind: str, data: bytes, height: str) -> str:
+    source = f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
+    return (
+        '<figure style="margin:0;flex:1 1 0;min-width:0;text-align:center">'
+        f'<img alt="{caption}" src="{source}" style="max-width:100%;max-height:{height};object-fit:contain">'
+        f'<figcaption style="font-size:0.78em;opacity:0.8">{caption}</figcaption></figure>'
+    )
+
+
+def numbers_table(sketch: Sketch, plan: Plan | None) -> str:
+    """HTML: what the drawing costs, and what comes of it."""
+    strokes = sketch.strokes
+    ink_mm = sum(float(np.linalg.norm(np.diff(stroke, axis=0), axis=1).sum()) for stroke in strokes)
+    up_mm = pen_up_mm(strokes, tuple(strokes[0][0].tolist()))
+    lifts = len(strokes) - 1 if sketch.setup.pen.rises else 0
+    rows = [
+        ("Mode", html.escape(mode_title(sketch.mode))),
+        ("Strokes", f"{len(strokes)}"),
+        ("Ink", _length(ink_mm)),
+        ("Pen up" if lifts or sketch.setup.pen.laser else "Between strokes", _length(up_mm)),
+        ("Lifts", f"{lifts}"),
+        ("Drawing time", duration(plan.time_s) if plan else "…" if sketch.is_reachable else "out of reach"),
+    ]
+    if plan is not None and plan.stray_ink_mm:
+        rows.append(("Stray ink", _length(plan.stray_ink_mm)))
+    if plan is not None:
+        rows.append(("Fastest joint", f"{plan.peak_speed:.0%} of its limit"))
+    if sketch.similarity is not None:
+        rows.append(("Similarity to the picture", f"{sketch.similarity:.0%}"))
+    cells = [f'<td>{name}</td><td style="text-align:right"><b>{value}</b></td>' for name, value in rows]
+    pairs = [
+        f'<tr>{cells[k]}<td style="width:14px"></td>{cells[k + 1] if k + 1 < len(cells) else "<td></td><td></td>"}</tr>'
+        for k in range(0, len(cells), 2)
+    ]
+    notes = "".join(small(html.escape(note)) for note in sketch.notes)
+    return (
+        '<table style="width:calc(100% - 24px);margin:2px 12px 4px;font-size:0.82em;line-height:1.6;'
+        f'border-collapse:collapse;font-variant-numeric:tabular-nums">{"".join(pairs)}</table>{notes}'
+    )
+
+
+def mode_title(mode: str) -> str:
+    """For students."""
+    return DRAWING_MODES[mode].title if mode in DRAWING_MODES else "Strokes as they are"
+
+
+def duration(seconds: float) -> str:
+    """Minutes and seconds."""
+    if seconds < 10.0:
+        return f"{seconds:.1f} s"
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes} min {rest:02d} s" if minutes else f"{rest} s"
+
+
+def _length(mm: float) -> str:
+    return f"{mm:.0f} mm" if mm < 1000 else f"{mm / 1e3:.2f} m"
