@@ -2,34 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from app.drawing.errors import DrawingError
-from app.drawing.modes import AUTO, DRAWING_MODES, PAPER, PORTRAIT, PORTRAIT_LINES
+from app.drawing.crowd import too_many
+from app.drawing.errors import DrawingError, TooManyStrokes
+from app.drawing.fitting import fitted, leaves_sheet, on_sheet, pixel_mm, room_mm, seen_width
+from app.drawing.likeness import likeness
+from app.drawing.modes import AUTO, MAX_STROKES, PAPER, PORTRAIT, PORTRAIT_LINES
 from app.drawing.order import join_touching, order_strokes
 from app.drawing.prepare import prepare
-from app.drawing.rasterise import RASTER_MODES, portrait, rasterise, similarity
+from app.drawing.rasterise import RASTER_MODES, portrait, rasterise
+from app.drawing.settings import checked_settings
 from app.drawing.source import Source
-from app.drawing.toolpath.placement import Sheet, fit_to_sheet
 from app.drawing.vectorise import vectorise
 
 Array = NDArray[np.float64]
 Grey = NDArray[np.uint8]
+Settings = dict[str, Any]
 OnStage = Callable[[str], None]
 
 STROKES = "strokes"
 """The mode of a composition of a source without a picture."""
 
 STAGES = ("lines", "order", "likeness")
+PREPARE = ("width", "gamma", "smooth")
+FINEST_PEN_MM, WIDEST_PEN_MM = 0.05, 20.0
+MANY = 2000
+"""Strokes that are put in a good order, not in the best: that would gain half a per cent and take a second."""
+
 NO_INK = "There is nothing to draw in this picture: choose another mode, or lower its thresholds."
-PICTURE = frozenset({"width", "gamma", "smooth"})
-LARGEST_SCALE = 10.0
+LARGE = "The drawing is larger than its sheet: choose a smaller scale."
 
 
 @dataclass(frozen=True)
@@ -72,80 +79,87 @@ class Composition:
 
 
 class _Lines(NamedTuple):
-    """Strokes in pixels, and how they came about."""
+    """What is to be drawn, in any order, and how it came about."""
 
     strokes: list[Array]
+    """(n, 2) sheet millimetres."""
     mode: str
     reason: str
+    pixels: list[Array]
+    """The same in pixels of the prepared picture."""
+    prepared: Grey | None
+    mm_per_px: float
+
+
+def _ignore(_stage: str) -> None:
+    pass
 
 
 def compose(
-    source: Source, look: Look, *, order_s: float = 0.0, seed: int = 0, on_stage: OnStage = lambda _stage: None
+    source: Source, look: Look, *, order_s: float = 0.0, seed: int = 0, on_stage: OnStage = _ignore
 ) -> Composition:
-    """Draw a source on a sheet.
+    """Draw a source on a sheet. DrawingError for what cannot be drawn; TooManyStrokes tells a coarser setting.
 
-    order_s: seconds to spend on a still better order; on_stage: is told when one of `STAGES` begins.
-    DrawingError for what cannot be drawn.
+    order_s: seconds to spend on a still better order. on_stage: told when one of `STAGES` begins.
     """
-    if look.mode not in DRAWING_MODES:
-        raise DrawingError(f"There is no mode called {look.mode}; choose one of {', '.join(DRAWING_MODES)}.")
+    settings = checked_settings(look.mode, look.parameters)
+    if not FINEST_PEN_MM <= look.pen_mm <= WIDEST_PEN_MM:
+        raise DrawingError(f"A pen cannot be {look.pen_mm:g} mm wide; choose {FINEST_PEN_MM:g} to {WIDEST_PEN_MM:g}.")
     on_stage("lines")
-    if source.grey is None:
-        strokes = _fitted(source.strokes or [], look)
-        lines, grey, mm_per_px = _Lines(strokes, STROKES, "The source is strokes already."), None, 1.0
-    else:
-        settings = _settings(look)
-        grey = prepare(source.grey, **{name: settings.pop(name) for name in PICTURE & settings.keys()})
-        mm_per_px = look.scale * min(side / pixels for side, pixels in zip(_room(look), grey.shape[::-1], strict=True))
-        lines = _traced(grey, mm_per_px, look, settings)
-        strokes = on_sheet(lines.strokes, grey.shape, mm_per_px)
-    if not strokes:
+    lines = _given(source.strokes or [], look) if source.grey is None else _drawn(source.grey, look, settings)
+    if not lines.strokes:
         raise DrawingError(NO_INK)
     on_stage("order")
-    if lines.mode != PAPER:
-        strokes = join_touching(order_strokes(strokes, budget_s=order_s, seed=seed))
+    strokes = lines.strokes if lines.mode == PAPER else _ordered(lines.strokes, order_s, seed)
     on_stage("likeness")
-    like = None if grey is None else similarity(grey, lines.strokes, mm_per_px, look.pen_mm)
-    return Composition(strokes, lines.mode, lines.reason, source.notes, like, grey, mm_per_px)
+    grey = lines.prepared
+    alike = None if grey is None else likeness(grey, lines.pixels, lines.mm_per_px, look.pen_mm)
+    notes = (*source.notes, LARGE) if leaves_sheet(strokes, look.sheet_mm) else source.notes
+    return Composition(strokes, lines.mode, lines.reason, notes, alike, grey, lines.mm_per_px)
 
 
-def on_sheet(pixels: Sequence[Array], shape: tuple[int, ...], mm_per_px: float) -> list[Array]:
-    """Pixel strokes of a picture (h, w) in sheet millimetres, the picture in the middle, y up."""
-    middle = np.array([(shape[1] - 1) / 2, (shape[0] - 1) / 2])
-    return [mm_per_px * (np.asarray(stroke, dtype=float) - middle) * np.array([1.0, -1.0]) for stroke in pixels]
+def _ordered(strokes: list[Array], order_s: float, seed: int) -> list[Array]:
+    at_once = len(strokes) > MANY and order_s <= 0.0
+    found = order_strokes(strokes, budget_s=order_s, seed=seed, progress=(lambda _share: False) if at_once else None)
+    return join_touching(found)
 
 
-def _room(look: Look) -> tuple[float, float]:
-    """Width and height inside the margins, mm."""
-    width, height = (side - 2.0 * look.margin_mm for side in look.sheet_mm)
-    if not (look.margin_mm >= 0.0 and 0.0 < width < 5000.0 and 0.0 < height < 5000.0):
-        raise DrawingError(
-            f"A sheet of {look.sheet_mm[0]:g} x {look.sheet_mm[1]:g} mm with margins of {look.margin_mm:g} mm has no "
-            "room to draw on; choose a larger sheet or smaller margins."
+def _given(strokes: list[Array], look: Look) -> _Lines:
+    """A source of strokes, fitted to the sheet."""
+    if len(strokes) > MAX_STROKES:
+        raise TooManyStrokes(
+            f"This drawing has {len(strokes)} strokes, more than the {MAX_STROKES} that make sense; simplify it.",
+            len(strokes),
         )
-    if not 0.0 < look.scale <= LARGEST_SCALE:
-        raise DrawingError(f"A scale of {look.scale:g} is not possible; choose one above 0, up to {LARGEST_SCALE:g}.")
-    return width, height
+    placed = fitted(strokes, room_mm(look.sheet_mm, look.margin_mm, look.scale))
+    return _Lines(placed, STROKES, "Its strokes are drawn as they are.", [], None, 1.0)
 
 
-def _fitted(strokes: Sequence[Array], look: Look) -> list[Array]:
-    _room(look)
-    return [look.scale * stroke for stroke in fit_to_sheet(strokes, Sheet("chosen", *look.sheet_mm), look.margin_mm)]
+def _drawn(grey: Grey, look: Look, settings: Settings) -> _Lines:
+    """A source with a picture (h, w), in the mode that is wanted."""
+    room = room_mm(look.sheet_mm, look.margin_mm, look.scale)
+    own = {each.name for each in RASTER_MODES[look.mode].parameters} if look.mode in RASTER_MODES else set()
+    of_picture = {name: settings[name] for name in PREPARE if name in settings and name not in own}
+    of_mode = {name: value for name, value in settings.items() if name not in of_picture}
+    prepared = prepare(grey, **{"width": seen_width(grey.shape, room, look.pen_mm), **of_picture})
+    mm_per_px = pixel_mm(prepared.shape, room)
+    try:
+        pixels, mode, reason = _in_mode(prepared, mm_per_px, look, of_mode)
+    except TooManyStrokes as crowd:
+        raise too_many(crowd.count, look.mode, settings) from None
+    if len(pixels) > MAX_STROKES:
+        raise too_many(len(pixels), look.mode, settings)
+    return _Lines(on_sheet(pixels, prepared.shape, mm_per_px), mode, reason, pixels, prepared, mm_per_px)
 
 
-def _settings(look: Look) -> dict[str, Any]:
-    """The parameters that are set; a mode that has its own `smooth` keeps it."""
-    return {name: value for name, value in look.parameters.items() if value != AUTO}
-
-
-def _traced(grey: Grey, mm_per_px: float, look: Look, settings: dict[str, Any]) -> _Lines:
-    """Strokes in the pixels of a prepared picture (h, w)."""
+def _in_mode(grey: Grey, mm_per_px: float, look: Look, settings: Settings) -> tuple[list[Array], str, str]:
+    """Strokes in pixels of a prepared picture (h, w), the mode used, and why."""
     if look.mode in RASTER_MODES:
         strokes = rasterise(grey, look.mode, mm_per_px, pen_mm=look.pen_mm, **settings)
-        return _Lines(strokes, look.mode, RASTER_MODES[look.mode].explanation)
+        return strokes, look.mode, RASTER_MODES[look.mode].explanation
     weight = settings.pop("weight", look.weight)
     found = vectorise(grey, PORTRAIT_LINES if look.mode == PORTRAIT else look.mode, mm_per_px, **settings)
     if look.mode != PORTRAIT:
-        return _Lines(found.strokes, found.mode, found.reason)
+        return found.strokes, found.mode, found.reason
     strokes = portrait(found.strokes, grey, mm_per_px, pen_mm=look.pen_mm, weight=weight)
-    return _Lines(strokes, PORTRAIT, "Lines tell who it is, light tones give the face its shape.")
+    return strokes, PORTRAIT, "Lines tell who it is, light tones give the face its shape."

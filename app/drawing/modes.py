@@ -13,7 +13,9 @@ from app.drawing.vectorise.modes import OWN
 AUTO = "auto"
 PAPER = "paper"
 PORTRAIT = "portrait"
-PORTRAIT_LINES, PORTRAIT_TONES = "sketch", "hatch"
+PORTRAIT_LINES = "sketch"
+MAX_STROKES = 10_000
+"""More are no drawing but noise, and would take a robot most of an hour."""
 
 Value = float | Literal["auto"]
 
@@ -102,9 +104,13 @@ def _raster_mode(name: str) -> DrawingMode:
     """The picture's parameters, but for those of which the mode has its own, then the mode's."""
     mode = RASTER_MODES[name]
     own = {each.name for each in mode.parameters}
-    return DrawingMode(
-        mode.title, mode.explanation, (*(each for each in PICTURE if each.name not in own), *mode.parameters)
-    )
+    picture = (each for each in PICTURE if each.name not in own)
+    return DrawingMode(mode.title, mode.explanation, (*picture, *map(_as_offered, mode.parameters)))
+
+
+def _as_offered(parameter: Parameter) -> Parameter:
+    """Every dot is a stroke."""
+    return replace(parameter, high=float(MAX_STROKES)) if parameter.name == "dots" else parameter
 
 
 DRAWING_MODES: dict[str, DrawingMode] = {
@@ -115,7 +121,7 @@ DRAWING_MODES: dict[str, DrawingMode] = {
     ),
     "sketch": DrawingMode(
         "Sketch",
-        "Dark lines as an artist sees them, smoothed along the flow of the picture. Best for photos, faces and animals.",
+        "Dark lines as an artist sees them, smoothed along their flow. Best for photos of faces, animals and things.",
         (*PICTURE, *SKETCH, *_strokes("sketch")),
     ),
     "canny": DrawingMode(
@@ -149,25 +155,43 @@ DRAWING_MODES: dict[str, DrawingMode] = {
 
 PRESETS: dict[str, Preset] = {
     "quick": Preset(
-        "Quick sketch", "sketch", {"strong": 0.03, "weak": 0.08, "shortest_mm": 6.0, "join_mm": 2.5},
-        "The few lines that matter: a minute or less on the robot.",
+        "Quick sketch",
+        "sketch",
+        {"strong": 0.03, "weak": 0.08, "shortest_mm": 6.0, "join_mm": 2.5},
+        "The few lines that matter, in a fraction of the time.",
     ),
     "fine": Preset(
-        "Fine sketch", "sketch", {"strong": 0.08, "weak": 0.16, "shortest_mm": 1.6},
-        "More and fainter lines: hair, fur and leaves.",
+        "Fine sketch",
+        "sketch",
+        {"strong": 0.08, "weak": 0.16, "shortest_mm": 1.6},
+        "More lines and fainter ones: hair, fur and leaves.",
     ),
-    "portrait": Preset("Portrait with tones", PORTRAIT, {"gamma": 0.8}, "A face: its lines, and light hatching in the shade."),
+    "portrait": Preset(
+        "Portrait with tones", PORTRAIT, {"gamma": 0.8}, "A face: its lines, and light hatching in the shade."
+    ),
     "line_art": Preset("Line art", "centreline", {}, "A drawing, a plan or handwriting: the middle of each line."),
-    "logo": Preset("Logo outlines", "outline", {}, "Borders of filled shapes."),
+    "logo": Preset("Logo outlines", "outline", {}, "The borders of filled shapes."),
     "hatched": Preset("Hatched", "hatch", {"pitch": 1.6}, "Tones from straight lines in two directions."),
-    "waves": Preset("Waves", "squiggle", {}, "Rows of waves, higher where it is darker: few lifts, looks good from afar."),
-    "no_lift": Preset(
+    "waves": Preset(
+        "Waves", "squiggle", {}, "Rows of waves, higher where it is darker: few lifts, and good from afar."
+    ),
+    "one_line": Preset(
         "One line", "one_line", {"points": 4000.0}, "A single line, for a robot that cannot lift its pen."
     ),
-    "dots": Preset("Dots", "stipple", {"dots": 2000.0}, "Dots, closer together where it is darker. Every dot is a lift: slow."),
-    "laser": Preset(
-        "Laser rows", "threshold_rows", {"pitch": 2.0, "smooth": 5.0}, "The dark parts row by row, to and fro, as the paper's laser burns them.",
+    "dots": Preset(
+        "Dots",
+        "stipple",
+        {"dots": 2000.0},
+        "Dots, closer together where it is darker; each one is a lift, so it is slow.",
     ),
-    "paper": Preset("The paper's way", PAPER, {"smooth": 7.0}, "Contours around Canny's edges, to compare with."),
-}  # fmt: skip
+    "laser": Preset(
+        "Laser rows",
+        "threshold_rows",
+        {"smooth": 5.0, "pitch": 2.0},
+        "The dark parts row by row, to and fro, as the paper's laser burns them.",
+    ),
+    "paper": Preset(
+        "The paper's way", PAPER, {"smooth": 7.0}, "Contours around Canny's edges: compare its time with the others."
+    ),
+}
 """Name -> preset."""

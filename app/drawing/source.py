@@ -32,9 +32,11 @@ class Source:
     grey: NDArray[np.uint8] | None
     """(h, w), 0 black to 255 white; None for a drawing that is strokes already."""
     strokes: list[Array] | None = None
-    """(n, 2) each, y up; only their shape counts, since they are fitted to the sheet."""
+    """(n, 2) each, y up, fitted to the sheet."""
     notes: tuple[str, ...] = ()
     """What its owner may want to know, a sentence each."""
+    in_place: bool = False
+    """Whether the strokes are sheet millimetres already, and stay where they are."""
 
 
 def read_source(name: str, data: bytes) -> Source:
@@ -58,15 +60,15 @@ def text_source(text: str) -> Source:
     return Source(title if len(title) <= LONGEST_TITLE else title[: LONGEST_TITLE - 1] + "…", None, strokes, notes)
 
 
-def strokes_source(title: str, strokes: Sequence[Array]) -> Source:
-    """Strokes (n, 2), y up, say of a hand."""
+def strokes_source(title: str, strokes: Sequence[Array], *, in_place: bool = False) -> Source:
+    """Strokes (n, 2), y up, say of a hand; in place if they are sheet millimetres already."""
     arrays = [np.asarray(stroke, dtype=np.float64) for stroke in strokes]
     if not arrays:
         raise DrawingError("There are no strokes yet; draw at least one.")
     for stroke in arrays:
         if stroke.ndim != 2 or stroke.shape[1] != 2 or len(stroke) < 2 or not np.isfinite(stroke).all():
             raise DrawingError("A stroke needs two or more points x, y; draw it again.")
-    return Source(title, None, arrays)
+    return Source(title, None, arrays, in_place=in_place)
 
 
 def _text(data: bytes) -> str:

@@ -89,7 +89,7 @@ class Room:
             ViewPanel(gui, session, stage, overlay)
         bench = Bench(client)
         lab = ControlRoom(client, session, control_tab, bench, self._quick_worker(), self._worker, self._tell)
-        drawing = DrawingDoor(client, session, gizmo, draw_tab, bench, self._quick_worker, self._worker)
+        drawing = DrawingDoor(client, session, gizmo, stage, draw_tab, bench, self._quick_worker, self._worker)
         self._closers += [overlay.close, ghosts.close, robot_panel.close, lab.close, drawing.close]
 
     def _worker(self, failed: Callable[[], None] | None = None) -> Worker:

@@ -6,6 +6,7 @@ from typing import Literal
 
 import numpy as np
 import viser
+from numpy.typing import NDArray
 
 from app.robots import Robot
 from app.robots.parts import machine_of
@@ -42,6 +43,9 @@ DIRECTIONS: dict[View, tuple[float, float, float] | None] = {
 }
 """From what is looked at towards the eye; each machine has its own for `3-D`."""
 
+DOWN = (0.15, -1.0, 0.85)
+"""The same for a sheet below a machine."""
+
 
 def light_the_room(server: viser.ViserServer) -> None:
     """Lights shared by everyone, beside viser's key light: soft light from the sky, and some from one side."""
@@ -70,11 +74,17 @@ class Stage:
 
     def look(self, view: View) -> None:
         """Turn the camera to a preset that shows the whole machine, on a wide screen or a tall one."""
-        camera = self._client.camera
         low, high = _extent(self._session.robot)
-        focus, size = 0.5 * (low + high), float(np.linalg.norm(high - low))
         direction = np.array(DIRECTIONS[view] or machine_of(self._session.robot).seen_from)
-        direction /= np.linalg.norm(direction)
+        self._aim(0.5 * (low + high), float(np.linalg.norm(high - low)), direction)
+
+    def look_down_on(self, focus: tuple[float, float, float], size: float) -> None:
+        """Turn the camera to something of this size (m) that lies flat, as near as the machine lets one look."""
+        self._aim(np.array(focus), size, np.array(DOWN))
+
+    def _aim(self, focus: NDArray[np.float64], size: float, direction: NDArray[np.float64]) -> None:
+        camera = self._client.camera
+        direction = direction / np.linalg.norm(direction)
         aspect = camera.image_width / max(camera.image_height, 1)
         distance = 0.5 * size / np.tan(0.5 * FIELD_OF_VIEW) / min(1.0, max(aspect, 0.3))
         if camera.image_width < PHONE_WIDTH_PX:

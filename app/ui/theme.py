@@ -47,6 +47,13 @@ def leg_color(leg: int) -> Rgb:
     return LEGS[leg % len(LEGS)]
 
 
+def line_colors(marked: NDArray[np.bool_], mark: Rgb, other: Rgb) -> NDArray[np.uint8]:
+    """(n, 2, 3) colours of both ends of n line segments; the page takes those as linear light, unlike one for all."""
+    rgb = np.where(marked[:, None], np.array(mark), np.array(other)) / 255.0
+    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    return np.repeat(np.rint(255.0 * linear).astype(np.uint8)[:, None], 2, axis=1)
+
+
 def css(color: Rgb) -> str:
     return f"rgb({color[0]},{color[1]},{color[2]})"
 

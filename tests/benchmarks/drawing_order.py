@@ -1,9 +1,9 @@
 """How short the way with the pen up becomes, and how long that takes, as ratios in one run.
 
-    python tests/benchmarks/drawing_order.py [--many 20000] [--budgets-s 0 0.5] [--vpype venv/bin/vpype] [--json]
+    python tests/benchmarks/drawing_order.py [--many 20000] [--budgets-s 0 0.5] [--peers venv/bin/python] [--json]
 
 Made-up drawings, shuffled and turned at random, each ordered by us, by the nearest neighbour and by the greedy edge;
-with a path to vpype's executable also by its `linesort` and `linesort --two-opt`, in vpype's own Python. The pen-up
+with an interpreter that has vpype also by its `linesort` and `linesort --two-opt`. The pen-up
 way counts from home, the middle of the sheet, for everyone; vpype, which knows no home, begins anywhere, so `free`
 is the ratio to two-opt without that first hop. Seconds are of the processor, vpype's without its start.
 """
@@ -11,7 +11,6 @@ is the ratio to two-opt without that first hop. Seconds are of the processor, vp
 from __future__ import annotations
 
 import json
-import subprocess
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,23 +23,11 @@ from app.drawing.order import order_strokes, pen_up_mm, pen_up_s
 from app.drawing.order.cost import DEFAULT_COST, HOME, Array
 from app.drawing.order.greedy import greedy_tour
 from app.drawing.order.tour import Ends, in_order
+from tests.benchmarks.drawing_peers import ask, pack, unpack
 
 Strokes = list[Array]
 SHEET_MM = 160.0
 TWO_OPT = "linesort --two-opt"
-
-IN_VPYPE = """
-import json, sys, time
-import numpy as np, vpype
-from vpype_cli import execute
-given, command = json.load(sys.stdin)
-document = vpype.Document()
-document.add(vpype.LineCollection([np.array(line) @ [1, 1j] for line in given]), 1)
-start = time.process_time()
-document = execute(command, document)
-seconds = time.process_time() - start
-json.dump([[np.column_stack([line.real, line.imag]).tolist() for line in document.layers[1]], seconds], sys.stdout)
-"""
 
 
 @dataclass(frozen=True)
@@ -51,8 +38,8 @@ class Options:
     """Strokes in the largest drawing; vpype's two-opt needs a minute for 20 000."""
     budgets_s: tuple[float, ...] = (0.0, 0.5)
     """Seconds to improve our order."""
-    vpype: Path | None = None
-    """Its executable, in an environment of its own."""
+    peers: Path | None = None
+    """Interpreter that has vpype, of an environment of its own."""
     json: bool = False
     """Print JSON instead of a table."""
 
@@ -124,13 +111,10 @@ def greedy(strokes: Strokes) -> Strokes:
     return in_order(strokes, greedy_tour(Ends(strokes, HOME, DEFAULT_COST)))
 
 
-def with_vpype(executable: Path, command: str, strokes: Strokes) -> tuple[Strokes, float]:
+def with_vpype(python: Path, command: str, strokes: Strokes) -> tuple[Strokes, float]:
     """Ordered strokes, seconds."""
-    given = json.dumps([[stroke.tolist() for stroke in strokes], command])
-    python = executable.parent / "python"
-    done = subprocess.run([str(python), "-c", IN_VPYPE], input=given, capture_output=True, text=True, check=True)
-    ordered, seconds = json.loads(done.stdout)
-    return [np.array(line) for line in ordered], seconds
+    found = ask(python, "vpype", pack(strokes), command)
+    return unpack(found), float(found["seconds"])
 
 
 def timed(order: Callable[[], Strokes]) -> tuple[Strokes, float]:
@@ -146,9 +130,9 @@ def measure(name: str, strokes: Strokes, options: Options) -> list[dict[str, flo
     }
     for budget_s in options.budgets_s:
         ways[f"ours, {budget_s:g} s"] = timed(lambda budget_s=budget_s: order_strokes(strokes, budget_s=budget_s))
-    if options.vpype:
+    if options.peers:
         for command in ("linesort", TWO_OPT):
-            ways[command] = with_vpype(options.vpype, command, strokes)
+            ways[command] = with_vpype(options.peers, command, strokes)
     rows = []
     for way, (ordered, seconds) in ways.items():
         row: dict[str, float | str] = {"drawing": name, "way": way, "seconds": seconds}

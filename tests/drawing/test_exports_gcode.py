@@ -119,7 +119,7 @@ def test_the_header_says_what_is_coming(pen, seconds):
     [
         ([], {}, "nothing to draw"),
         ([SQUARE], {"flavour": "fanuc"}, "for grbl or marlin"),
-        ([SQUARE], {"pen": "laser"}, "pen on z or servo"),
+        ([SQUARE], {"pen": "feather"}, "pen on z or servo or a laser"),
         ([SQUARE], {"draw_mm_s": 0.0}, "above zero"),
         ([SQUARE], {"travel_mm_s": -1.0}, "above zero"),
         ([SQUARE], {"lift_mm": np.nan}, "above zero"),

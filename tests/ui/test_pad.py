@@ -2,75 +2,41 @@
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import cv2
 import numpy as np
 import pytest
-import viser
-from numpy.typing import NDArray
-from playwright.sync_api import Browser, CDPSession, Page, expect
+from playwright.sync_api import Browser, Page, expect
 
 from app.ui.drawing.pad_strokes import MAX_STROKES
-from app.ui.guard import Guard
-from app.ui.panels.drawing.pad import Pad
-from app.ui.viser_adapter import start_server, stop_server
 from tests.support.browser import DESKTOP, PHONE, PageFactory, new_page, screenshot, wait_until
+from tests.support.pad_page import (
+    PEN,
+    SHEET,
+    PadServer,
+    Path,
+    Points,
+    draw,
+    draw_with_finger,
+    ink,
+    on_page,
+    open_pad,
+    pad_server,
+)
 from tests.support.widgets import press
 
-HOST = "127.0.0.1"
-SHEET, WIDE_SHEET = (148.0, 210.0), (297.0, 210.0)
+WIDE_SHEET = (297.0, 210.0)
 CLOSE_MM = 0.6
 ZIGZAG = [(-50.0, 60.0), (0.0, 90.0), (40.0, -30.0), (-20.0, -80.0)]
 LONG = 1500
 """More points than fit into two messages."""
-PEN = """
-  const canvas = document.querySelector("canvas[data-sheet]"), box = canvas.getBoundingClientRect();
-  canvas.setPointerCapture = () => {};
-  const pen = (type, x, y) => canvas.dispatchEvent(new PointerEvent(type, {
-    bubbles: true, pointerId: 7, pointerType: "pen", clientX: box.left + x * box.width, clientY: box.top + y * box.height,
-  }));
-"""
-"""A digitiser that knows no pause; x and y are shares of the paper, from its upper left."""
-INK = """([x, y, share]) => {
-  const canvas = document.querySelector("canvas[data-sheet]"), r = Math.ceil(share * canvas.width);
-  const left = Math.round(x * canvas.width) - r, top = Math.round(y * canvas.height) - r;
-  const pixels = canvas.getContext("2d").getImageData(left, top, 2 * r, 2 * r).data;
-  return pixels.some((value, k) => k % 4 === 0 && value < 130);
-}"""
-
-Points = NDArray[np.float64]
-
-
-class PadServer:
-    """A pad, and a long text, for every visitor; `heard` lists what the newest one's callback got."""
-
-    def __init__(self, server: viser.ViserServer) -> None:
-        self.url = f"http://{HOST}:{server.get_port()}"
-        self.heard: list[list[Points]] = []
-        self.clients: list[viser.ClientHandle] = []
-        self.pads: list[Pad] = []
-        server.on_client_connect(self._furnish)
-
-    @property
-    def pad(self) -> Pad:
-        return self.pads[-1]
-
-    async def _furnish(self, client: viser.ClientHandle) -> None:
-        self.heard = heard = []
-        self.pads.append(Pad(client, heard.append))
-        client.gui.add_markdown("\n\n".join(["A panel that is longer than its place."] * 40))
-        self.clients.append(client)
 
 
 @pytest.fixture(scope="module")
 def lab() -> Iterator[PadServer]:
-    server = start_server(HOST, 0, Guard())
-    try:
-        yield PadServer(server)
-    finally:
-        stop_server(server)
+    with pad_server() as running:
+        yield running
 
 
 @pytest.fixture(scope="module")
@@ -94,52 +60,7 @@ def desk(shared_desk: Page, lab: PadServer) -> Page:
     return shared_desk
 
 
-def open_pad(page: Page, lab: PadServer) -> Page:
-    """Wait until the pad is there and stands still."""
-    page.goto(lab.url, wait_until="domcontentloaded")
-    page.locator("canvas[data-sheet]").wait_for()
-    page.get_by_text("A panel that").last.wait_for()
-    wait_until(page, lambda: page.evaluate("Object.keys(window.deltalabPads ?? {}).length"), "script of the pad")
-    page.wait_for_timeout(500)
-    return page
-
-
-def on_page(page: Page, points_mm: Sequence[tuple[float, float]], sheet: tuple[float, float] = SHEET) -> Points:
-    """Where on the page these points of the sheet are."""
-    box = page.locator("canvas[data-sheet]").bounding_box()
-    assert box is not None and box["width"] / box["height"] == pytest.approx(sheet[0] / sheet[1], rel=0.01)
-    share = np.array(points_mm) / np.array(sheet) * (1, -1) + 0.5
-    return share * (box["width"], box["height"]) + (box["x"], box["y"])
-
-
-def draw(page: Page, points_mm: Sequence[tuple[float, float]]) -> None:
-    places = on_page(page, points_mm)
-    page.mouse.move(*places[0])
-    page.mouse.down()
-    for place in places[1:]:
-        page.mouse.move(*place, steps=8)
-    page.mouse.up()
-
-
-def draw_with_finger(page: Page, points_mm: Sequence[tuple[float, float]]) -> None:
-    session: CDPSession = page.context.new_cdp_session(page)
-    stops = on_page(page, points_mm)
-    fractions = np.linspace(0, len(stops) - 1, 20)
-    path = np.column_stack([np.interp(fractions, range(len(stops)), stops[:, axis]) for axis in (0, 1)])
-    for kind, place in zip(itertools.chain(["touchStart"], itertools.repeat("touchMove")), path, strict=False):
-        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": place[0], "y": place[1]}]})
-        page.wait_for_timeout(15)
-    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
-    session.detach()
-
-
-def ink(page: Page, place_mm: tuple[float, float], sheet: tuple[float, float] = SHEET, radius_mm: float = 1.0) -> bool:
-    """Whether something dark is drawn around a place on the sheet."""
-    x, y = place_mm[0] / sheet[0] + 0.5, 0.5 - place_mm[1] / sheet[1]
-    return page.evaluate(INK, [x, y, radius_mm / sheet[0]])
-
-
-def distances(points: Points, corners: Sequence[tuple[float, float]]) -> Points:
+def distances(points: Points, corners: Path) -> Points:
     """How far each point is from a polyline."""
     path = np.array(corners, dtype=float)
     start, step = path[:-1], np.diff(path, axis=0)
@@ -148,12 +69,11 @@ def distances(points: Points, corners: Sequence[tuple[float, float]]) -> Points:
     return np.min(np.linalg.norm(points[:, None] - foot, axis=2), axis=1)
 
 
-def assert_follows(stroke: Points, corners: Sequence[tuple[float, float]]) -> None:
+def assert_follows(stroke: Points, corners: Path) -> None:
     """A stroke stays on a path, begins and ends with it, and reaches its corners."""
     assert np.max(distances(stroke, corners)) < CLOSE_MM
     assert np.linalg.norm(stroke[[0, -1]] - np.array([corners[0], corners[-1]]), axis=1).max() < CLOSE_MM
     assert max(np.min(np.linalg.norm(stroke - corner, axis=1)) for corner in np.array(corners)) < CLOSE_MM
-    assert np.all(np.linalg.norm(np.diff(stroke, axis=0), axis=1)[:-1] > 0.39), "thinned"
 
 
 def test_a_mouse_draws(desk: Page, lab: PadServer):
@@ -180,22 +100,37 @@ def test_quick_strokes_all_arrive_in_their_order(desk: Page, lab: PadServer):
 
 
 def test_strokes_of_the_same_moment_do_not_replace_each_other(desk: Page, lab: PadServer):
-    """A tap, a stroke of several messages, and a tap."""
+    """The same tap twice, and a stroke of several messages."""
     desk.evaluate(
         f"""() => {{ {PEN}
+          pen("pointerdown", 0.1, 0.1); pen("pointerup", 0.1, 0.1);
           pen("pointerdown", 0.1, 0.1); pen("pointerup", 0.1, 0.1);
           pen("pointerdown", 0.5, 0.9);
           for (let k = 1; k < {LONG}; k++) pen("pointermove", k % 2 ? 0.2 : 0.8, 0.9 - 0.8 * k / {LONG});
           pen("pointerup", 0.8, 0.1);
-          pen("pointerdown", 0.1, 0.1); pen("pointerup", 0.1, 0.1);
         }}"""
     )
     wait_until(desk, lambda: len(lab.pad.strokes) == 3, "three strokes")
     assert [len(strokes) for strokes in lab.heard] == [1, 2, 3], "heard once a stroke, not once a message"
-    assert [len(stroke) for stroke in lab.pad.strokes] == [2, LONG + 1, 2]
-    dot, scribble, _ = lab.pad.strokes
-    np.testing.assert_allclose(dot, np.full((2, 2), (-59.2, 84.0)), atol=CLOSE_MM)
-    assert np.all(np.diff(scribble[1:-1, 1]) >= 0.0), "in the order in which it was drawn"
+    assert [len(stroke) for stroke in lab.pad.strokes] == [2, 2, LONG + 1]
+    for dot in lab.pad.strokes[:2]:
+        np.testing.assert_allclose(dot, np.full((2, 2), (-59.2, 84.0)), atol=CLOSE_MM)
+    assert np.all(np.diff(lab.pad.strokes[2][:, 1]) >= 0.0), "in the order in which it was drawn"
+
+
+def test_a_slow_pen_does_not_send_every_step(desk: Page, lab: PadServer):
+    """40 mm in steps of a tenth: of four points one is enough, and the end is exact."""
+    desk.evaluate(
+        f"""() => {{ {PEN}
+          pen("pointerdown", 0.5, 0.5);
+          for (let k = 1; k <= 401; k++) pen("pointermove", 0.5 + 0.1 * k / {SHEET[0]}, 0.5);
+          pen("pointerup", 0.5 + 40.1 / {SHEET[0]}, 0.5);
+        }}"""
+    )
+    wait_until(desk, lambda: lab.pad.strokes, "a stroke")
+    (stroke,) = lab.pad.strokes
+    assert 80 <= len(stroke) <= 102 and stroke[-1] == pytest.approx([40.1, 0.0], abs=0.11)
+    assert np.all(np.diff(stroke[:-1, 0]) > 0.39)
 
 
 def test_a_stroke_drawn_while_the_server_speaks_stays(desk: Page, lab: PadServer):

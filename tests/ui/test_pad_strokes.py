@@ -41,8 +41,9 @@ def test_what_a_pad_sends_is_read(number: int, last: bool, units: list[tuple[int
     "text",
     [
         "", "1 last", "1 last ", "1 last 1", "1 last 1,2,3", "1 last 1,2 3", "1 last 1.5,2", "1 last nan,0",
-        "1 last 1e3,0", "1 last 1,2\n", " 1 last 1,2", "1  last 1,2", "1 last 1,2 ", "1 LAST 1,2", "-1 last 1,2", "1 last +1,2",
-        "1 last 123456,0", "1234567890 last 1,2", "١ last 1,2", "1 last ١,2", "1 last 1,--2", "<script>", "1 last 1 ,2",
+        "1 last 1e3,0", "1 last 1,2\n", " 1 last 1,2", "1  last 1,2", "1 last 1,2 ", "1 LAST 1,2", "-1 last 1,2",
+        "1 last +1,2", "1 last 123456,0", "1234567890 last 1,2", "١ last 1,2", "1 last ١,2", "1 last 1,--2",
+        "<script>", "1 last 1 ,2",
     ],
 )  # fmt: skip
 def test_anything_else_is_no_stroke(text: str):
@@ -52,7 +53,7 @@ def test_anything_else_is_no_stroke(text: str):
 forged = st.from_regex(r"[0-9]{1,3} (more|last)( -?[0-9]{1,5},-?[0-9]{1,5}){1,4}", fullmatch=True)
 
 
-@given(st.lists(st.one_of(forged, st.text(alphabet="0123456789 ,-morelast\n"), st.text())))
+@given(st.lists(st.one_of(forged, st.text("0123456789 ,-morelast\n", max_size=30), st.text(max_size=30)), max_size=12))
 def test_forged_messages_leave_good_strokes_on_the_sheet(texts: list[str]):
     pad = drawn(*(found for text in texts if (found := read_piece(text)) is not None))
     for stroke in pad.kept:

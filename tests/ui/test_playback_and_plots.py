@@ -81,6 +81,62 @@ def test_a_long_run_is_played_fast():
     assert 100.0 / playback.speed == pytest.approx(PLEASANT_S, rel=0.5)
 
 
+def test_a_speed_can_be_asked_for(run: Run):
+    playback = Playback(Session(Memory("par4")))
+    playback.load(run, speed=1.0)
+    assert playback.speed == 1.0
+    playback.load(run)
+    assert playback.speed == 0.2, "2 s take about 12"
+
+
+def test_it_goes_on_to_a_time_and_stops_there(run: Run):
+    async def play() -> None:
+        session = Session(Memory("par4"))
+        playback = Playback(session)
+        playback.load(run, speed=10.0)
+        playback.play()
+        playback.halt_at(0.77)
+        assert playback.halting
+        await asyncio.sleep(0.3)
+        assert not playback.playing and not playback.halting
+        assert playback.time_s == 0.77
+        assert session.stance.joints == pytest.approx(tuple(run.q[77]))
+        playback.play()
+        await asyncio.sleep(0.5)
+        assert playback.time_s == pytest.approx(run.t[-1]), "it halts there once"
+
+    asyncio.run(play())
+
+
+def test_a_halt_is_taken_back_and_never_leads_backwards(run: Run):
+    async def play() -> None:
+        playback = Playback(Session(Memory("par4")))
+        playback.load(run, speed=1.0)
+        playback.play()
+        playback.halt_at(0.5)
+        playback.halt_at(None)
+        assert playback.playing and not playback.halting
+        await asyncio.sleep(0.2)
+        before = playback.time_s
+        playback.halt_at(0.0)
+        await asyncio.sleep(0.12)
+        assert not playback.playing and playback.time_s >= before
+
+    asyncio.run(play())
+
+
+def test_anything_with_times_poses_and_joints_is_played():
+    session = Session(Memory("delta3"))
+    joints = session.robot.inverse(session.robot.home[None])
+    still: Any = SimpleNamespace(
+        t=np.array([0.0, 1.0]), pose=np.tile(session.robot.home, (2, 1)), q=np.tile(joints, (2, 1))
+    )
+    playback = Playback(session)
+    playback.load(still)
+    playback.seek(0.5)
+    assert session.stance.joints == pytest.approx(tuple(joints[0]))
+
+
 def test_errors_are_enlarged_but_never_beyond_the_picture():
     errors = np.array([[1e-4, 0.0, 0.0], [0.0, 0.02, 0.0], [0.0, 0.0, 0.3], [0.0, 0.0, 0.0]])
     drawn = np.linalg.norm(enlarged(errors, 20.0), axis=1)

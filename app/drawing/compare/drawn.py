@@ -17,8 +17,8 @@ PIECE_MM = 0.25
 NEIGHBOURS = 6
 """The strokes in pieces this short at most: the nearest piece is among so many with the nearest middles."""
 
-THIN = 10
-"""Samples (ms) from one at which the deviation is measured to the next."""
+MOST_SAMPLES = 20_000
+"""At which the deviation is measured."""
 
 SPACING_MM = 0.1
 """Between two points of drawn ink, about; with many more the rendered lines would come out thicker."""
@@ -37,7 +37,8 @@ def drawn_strokes(toolpath: Toolpath, placement: Placement) -> list[Array]:
 
 def deviation_um(toolpath: Toolpath, placement: Placement, strokes: Sequence[Array]) -> float:
     """Root mean square distance of what is drawn from the nearest stroke, (n, 2) sheet mm each, micrometres."""
-    points = _on_sheet(toolpath.pose[toolpath.stroke >= 0, :2][::THIN], placement)
+    drawn = np.flatnonzero(toolpath.stroke >= 0)
+    points = _on_sheet(toolpath.pose[drawn[:: math.ceil(len(drawn) / MOST_SAMPLES)], :2], placement)
     start, step = _pieces(strokes)
     nearest = KDTree(start + step / 2).query(points, k=min(NEIGHBOURS, len(start)))[1].reshape(len(points), -1)
     along, from_start = step[nearest], points[:, None] - start[nearest]

@@ -4,15 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from app.drawing.errors import DrawingError
-from app.drawing.toolpath import PenSettings, Placement, Toolpath, default_pen, default_placement, plan_toolpath
-from app.drawing.toolpath.check import ToolpathError, check_lines
+from app.drawing.toolpath import (
+    PenSettings,
+    Placement,
+    Toolpath,
+    ToolpathError,
+    default_pen,
+    default_placement,
+    plan_toolpath,
+    unreachable,
+)
 from app.drawing.toolpath.limits import rate_limits
-from app.drawing.toolpath.polyline import lay_out
 from app.robots import GeometryError, Robot, build_robot
 from app.robots.robot import Array
 
@@ -70,11 +77,11 @@ def draw_on(
         return RobotResult(robot_name, reason=str(error))
 
 
-def largest_scale(strokes: Sequence[Array], robot: Robot, placement: Placement, lift_mm: float) -> float:
+def largest_scale(strokes: Sequence[Array], robot: Robot, placement: Placement, pen: PenSettings) -> float:
     """The largest scale, at most 1, at which the strokes and their lifted ends are in reach; NaN if none is."""
 
     def fits(scale: float) -> bool:
-        return _fits(_scaled(strokes, scale), robot, placement, lift_mm)
+        return _fits(_scaled(strokes, scale), robot, placement, pen)
 
     if fits(1.0):
         return 1.0
@@ -93,7 +100,7 @@ def _drawn(strokes: Sequence[Array], robot: Robot, pen: PenSettings) -> RobotRes
         return _measured(plan_toolpath(strokes, robot, placement, pen), robot)
     except ToolpathError as error:
         why = str(error).partition(";")[0]
-    scale = largest_scale(strokes, robot, placement, pen.lift_mm)
+    scale = largest_scale(strokes, robot, placement, pen)
     if math.isnan(scale):
         return RobotResult(robot.name, reason=f"{why}; it can draw nothing of this where its sheet lies.")
     toolpath, scale = _planned_smaller(strokes, robot, placement, pen, scale)
@@ -113,12 +120,14 @@ def _planned_smaller(
     return plan_toolpath(_scaled(strokes, scale), robot, placement, pen), scale
 
 
-def _fits(strokes: Sequence[Array], robot: Robot, placement: Placement, lift_mm: float) -> bool:
-    try:
-        check_lines(lay_out(strokes, placement), robot, placement.height_m, 1e-3 * lift_mm)
-    except ToolpathError:
+def _fits(strokes: Sequence[Array], robot: Robot, placement: Placement, pen: PenSettings) -> bool:
+    if any(outside.any() for outside in unreachable(strokes, robot, placement)):
         return False
-    return True
+    if not pen.rises:
+        return True
+    lifted = replace(placement, height_m=placement.height_m + 1e-3 * pen.lift_mm)
+    ends = np.concatenate([stroke[[0, -1]] for stroke in strokes])
+    return not unreachable([ends], robot, lifted)[0].any()
 
 
 def _scaled(strokes: Sequence[Array], scale: float) -> list[Array]:

@@ -19,11 +19,11 @@ from app.robots.robot import Array
 SCALE, SPEED = "scale", "speed_mm_s"
 
 SWEEPS: dict[str, tuple[str, ...]] = {
-    "auto": ("shortest_mm", "tolerance_mm", "width", SCALE, SPEED),
-    "sketch": ("strong", "weak", "shortest_mm", "join_mm", "tolerance_mm", "width", SCALE, SPEED),
-    "canny": ("high", "shortest_mm", "join_mm", "tolerance_mm", "width", SCALE, SPEED),
-    "centreline": ("shortest_mm", "join_mm", "tolerance_mm", "width", SCALE, SPEED),
-    "outline": ("shortest_mm", "join_mm", "tolerance_mm", "width", SCALE, SPEED),
+    "auto": ("shortest_mm", "smooth_px", "width", SCALE, SPEED),
+    "sketch": ("strong", "weak", "shortest_mm", "join_mm", "smooth_px", "width", SCALE, SPEED),
+    "canny": ("high", "shortest_mm", "join_mm", "smooth_px", "width", SCALE, SPEED),
+    "centreline": ("shortest_mm", "join_mm", "smooth_px", "width", SCALE, SPEED),
+    "outline": ("shortest_mm", "join_mm", "smooth_px", "width", SCALE, SPEED),
     "paper": ("high", "smooth", "width", SCALE, SPEED),
     "squiggle": ("pitch", "wave", SCALE, SPEED),
     "hatch": ("pitch", SCALE, SPEED),

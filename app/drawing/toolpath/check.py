@@ -28,10 +28,14 @@ def unreachable(strokes: Sequence[Array], robot: Robot, placement: Placement) ->
     return np.split(outside, np.cumsum([len(stroke) for stroke in strokes])[:-1])
 
 
-def check_lines(lines: Polylines, robot: Robot, paper_m: float, lift_m: float) -> None:
-    """ToolpathError unless the pen reaches every vertex on the paper, and lifted the ends of every stroke."""
+def check_lines(lines: Polylines, robot: Robot, paper_m: float, lift_m: float, *, rises: bool = True) -> None:
+    """ToolpathError unless the pen reaches every vertex on the paper, and the places where it is lifted.
+
+    Args:
+        rises: whether these are the ends of every stroke, or only where the drawing begins and ends.
+    """
     _check(robot, poses(robot, lines.points, paper_m), lines.stroke, "Stroke {} is beyond the robot")
-    ends = np.concatenate([lines.first[:-1], lines.last])
+    ends = np.concatenate([lines.first[:-1], lines.last]) if rises else np.array([0, lines.last[-1]])
     lifted = poses(robot, lines.points[ends], paper_m + lift_m)
     _check(robot, lifted, lines.stroke[ends], "The pen cannot be lifted at an end of stroke {}")
 

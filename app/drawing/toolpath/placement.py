@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from app.drawing.errors import DrawingError
+from app.drawing.toolpath.pen import default_pen
 from app.robots import Robot
 from app.robots.robot import Array
 
@@ -61,26 +62,25 @@ def default_placement(robot: Robot) -> Placement:
     return Placement(float(lower[2]) if robot.reach(lower).ok else z, (x, y))
 
 
-def largest_sheet(robot: Robot, placement: Placement | None = None, lift_mm: float = 4.0) -> Sheet | None:
+def largest_sheet(robot: Robot, placement: Placement | None = None, lift_mm: float | None = None) -> Sheet | None:
     """The largest of `SHEETS` that can be drawn all over, pen down and lifted; None if not even the smallest.
 
-    Where a format fits both ways it is returned upright.
+    Where a format fits both ways it is returned upright. The lift is by default that of `default_pen(robot)`.
     """
     placement = placement or default_placement(robot)
     tries = (sheet for upright in SHEETS for sheet in (upright, upright.turned()))
     return next((sheet for sheet in tries if sheet_fits(sheet, robot, placement, lift_mm)), None)
 
 
-def sheet_fits(sheet: Sheet, robot: Robot, placement: Placement, lift_mm: float = 4.0) -> bool:
+def sheet_fits(sheet: Sheet, robot: Robot, placement: Placement, lift_mm: float | None = None) -> bool:
     """Whether every point of the sheet is in reach, at the paper's height and at that of the lifted pen."""
+    lift_m = 1e-3 * (default_pen(robot).lift_mm if lift_mm is None else lift_mm)
     axes = [
         np.linspace(-side / 2, side / 2, 1 + math.ceil(1e-3 * side / PROBE_M))
         for side in (sheet.width_mm, sheet.height_mm)
     ]
     points = placement.on_table(np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, 2))
-    return all(
-        bool(robot.reachable(poses(robot, points, placement.height_m + above)).all()) for above in (0.0, 1e-3 * lift_mm)
-    )
+    return all(bool(robot.reachable(poses(robot, points, placement.height_m + z)).all()) for z in (0.0, lift_m))
 
 
 def fit_to_sheet(strokes: Sequence[Array], sheet: Sheet, margin_mm: float = 10.0) -> list[Array]:

@@ -85,7 +85,7 @@ def plan_toolpath(
     pen = pen or default_pen(robot)
     lines, limits = lay_out(strokes, placement), rate_limits(robot)
     paper, lift = placement.height_m, 1e-3 * pen.lift_mm
-    check_lines(lines, robot, paper, lift)
+    check_lines(lines, robot, paper, lift, rises=pen.rises)
     bounds = find_bounds(lines, robot, paper, limits, 1e-3 * pen.speed_mm_s)
     hops = between(lines.points[lines.first[:-1]], lines.points[lines.last], paper, lift, lift=pen.rises)
     pace = find_pace(hops, robot, limits, 1e-3 * pen.up_speed_mm_s)

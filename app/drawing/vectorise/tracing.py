@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.drawing.vectorise.chains import Line, lengths
+from app.drawing.vectorise.crowding import check_lines
 from app.drawing.vectorise.gaps import join_gaps
 from app.drawing.vectorise.junctions import through_junctions
 from app.drawing.vectorise.pixel_graph import trace
@@ -39,10 +40,13 @@ def trace_strokes(
     """Strokes along the middle of a mask (h, w), each on the top of `ridge` (h, w).
 
     half_width: (h, w) pixels of ink beside each pixel of the middle line; None for lines one pixel wide.
+    TooManyStrokes for a mask of noise.
     """
     if half_width is None:
         half_width = np.full(mask.shape, 0.5, np.float32)
-    lines = through_junctions(trace(thin(mask)), half_width)
+    thinned = thin(mask)
+    check_lines(thinned)
+    lines = through_junctions(trace(thinned), half_width)
     kept = np.flatnonzero(lengths(lines) * mm_per_px >= finish.shortest_mm)
     lines = join_gaps([lines[k] for k in kept], finish.join_mm / mm_per_px)
     lines = [line for line in lines if len(line) > 1]

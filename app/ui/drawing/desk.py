@@ -29,8 +29,18 @@ FIRST_SAMPLE = "cat"
 IMPROVE_S = 0.5
 """At a time, so that others get their turn."""
 
+FLAT = 1.1
+"""A picture whose sides differ by less is as good on either sheet."""
+
 ROUNDS = 4
 """Of improvement of one drawing."""
+
+
+def lies_flat(source: Source) -> bool | None:
+    """Whether a picture wants its sheet in landscape; None where it does not matter."""
+    if source.grey is None or max(source.grey.shape) < FLAT * min(source.grey.shape):
+        return None
+    return source.grey.shape[1] > source.grey.shape[0]
 
 
 class DrawingDesk:
@@ -67,6 +77,11 @@ class DrawingDesk:
         return self.settings.placement or default_placement(self._session.robot)
 
     @property
+    def improving(self) -> bool:
+        """Whether a better order is still being looked for."""
+        return self._planner.busy
+
+    @property
     def setup(self) -> Setup:
         session = self._session
         return Setup(session.robot_name, dict(session.dimensions), self.placement, self.settings.pen)
@@ -90,7 +105,7 @@ class DrawingDesk:
     def take_strokes(self, strokes: list[NDArray[np.float64]]) -> None:
         """Drawn by hand, sheet mm."""
         if strokes:
-            self._receive_source("hand", strokes_source("By hand", strokes))
+            self._receive_source("hand", strokes_source("By hand", strokes, in_place=True))
 
     def turn(self, **knobs: Any) -> None:
         """Set parameters of the mode, or margin, scale and width of the pen."""
@@ -144,7 +159,10 @@ class DrawingDesk:
             self.settings_changed.emit(self.settings)
             return
         self.source, self.source_name = result, name
-        self._change(self.settings)
+        settings = self.settings
+        if (landscape := lies_flat(result)) is not None:
+            settings = resized(settings, settings.sheet, landscape)
+        self._change(settings)
 
     def _ask(self) -> None:
         if self.source is not None:

@@ -11,6 +11,7 @@ from app.ui.bench import Bench
 from app.ui.compute import Worker
 from app.ui.gizmo import Gizmo
 from app.ui.session import Session
+from app.ui.stage import Stage
 from app.ui.tab_bell import on_tab_opened
 
 if TYPE_CHECKING:
@@ -27,12 +28,13 @@ class DrawingDoor:
         client: viser.ClientHandle,
         session: Session,
         gizmo: Gizmo,
+        stage: Stage,
         tab: viser.GuiTabHandle,
         bench: Bench,
         quick: Callable[[], Worker],
         slow: Callable[[Callable[[], None] | None], Worker],
     ) -> None:
-        self._parts = (client, session, gizmo, tab, bench, quick, slow)
+        self._parts = (client, session, gizmo, stage, tab, bench, quick, slow)
         self._room: DrawingRoom | None = None
         on_tab_opened(client, LABEL, self._open)
 

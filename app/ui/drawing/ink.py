@@ -58,29 +58,28 @@ def lay_ink(strokes_m: Sequence[Array], height_m: float, stray: bool, lengths_m:
         stray: whether the ways between the strokes are drawn too.
         lengths_m: (k,) lengths by which it will be told how far a stroke is drawn, if not the strokes' own.
     """
+    segments, begin = along(strokes_m, height_m, stray)
     sizes = np.array([len(stroke) for stroke in strokes_m], dtype=np.int64)
-    points = np.concatenate([*strokes_m, np.zeros((1, 2))])[:-1]  # also where there are no strokes
     last = np.cumsum(sizes) - 1
-    between = np.zeros(max(len(points) - 1, 0), dtype=bool)
-    between[last[:-1]] = True
-    kept = np.flatnonzero(~between | stray)
-    segments = np.full((len(kept), 2, 3), height_m, dtype=np.float32)
-    segments[:, 0, :2], segments[:, 1, :2] = points[kept], points[kept + 1]
+    first, end = np.searchsorted(begin, last - sizes + 1), np.searchsorted(begin, last)
+    travelled = np.concatenate([[0.0], np.cumsum(np.hypot(*(segments[:, 1] - segments[:, 0]).T[:2]))])
+    own = travelled[end] - travelled[first]
+    scale = np.ones(len(sizes)) if lengths_m is None else lengths_m / own
+    stroke = np.repeat(np.arange(len(sizes)), sizes)[begin]
+    reached = scale[stroke] * (travelled[1:] - travelled[first][stroke])
+    return Ink(segments, np.isin(begin, last), first, end, reached)
+
+
+def along(strokes_m: Sequence[Array], height_m: float, gaps: bool) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
+    """Segments (s, 2, 3) along the strokes and, with `gaps`, from each to the next; and the vertices (s,) at which
+    they begin, counted over all strokes."""
+    points = np.concatenate([*strokes_m, np.zeros((1, 2))])[:-1]  # also where there are no strokes
+    last = np.cumsum([len(stroke) for stroke in strokes_m], dtype=np.int64) - 1
+    begin = np.arange(len(points) - 1) if gaps else np.setdiff1d(np.arange(len(points)), last)
+    segments = np.full((len(begin), 2, 3), height_m, dtype=np.float32)
+    segments[:, 0, :2], segments[:, 1, :2] = points[begin], points[begin + 1]
     segments[(segments[:, 0] == segments[:, 1]).all(axis=1), 1, 0] += DOT_M
-    first, end = np.searchsorted(kept, last - sizes + 1), np.searchsorted(kept, last)
-    reached = _reached(points[kept + 1] - points[kept], first, end, lengths_m)
-    return Ink(segments, between[kept], first, end, reached)
-
-
-def _reached(steps: Array, first: NDArray[np.int64], end: NDArray[np.int64], lengths_m: Array | None) -> Array:
-    """(s,) m, from the beginning of the stroke to the end of each segment."""
-    travelled = np.concatenate([[0.0], np.cumsum(np.hypot(*steps.T))])
-    reached = travelled[1:].copy()
-    for stroke, (begin, stop) in enumerate(zip(first, end, strict=True)):
-        reached[begin:stop] -= travelled[begin]
-        if lengths_m is not None and stop > begin and reached[stop - 1] > 0.0:
-            reached[begin:stop] *= lengths_m[stroke] / reached[stop - 1]
-    return reached
+    return segments, begin
 
 
 def parts(count: int) -> list[tuple[int, int]]:

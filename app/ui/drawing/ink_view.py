@@ -13,11 +13,12 @@ from app.ui.drawing.ink import BLOCKS, Ink, lay_ink, parts
 from app.ui.pacing import Paced
 
 REFRESH_S = 0.1
-THINNEST_M = 0.0008
-"""A thinner line would fade where one looks at the whole robot."""
+THINNEST_M = 0.0005
+"""A thinner line would fade: from where one sees the whole sheet well, this is a pixel and a half."""
 
-ABOVE = 0.6
-"""Height of a line's middle above the paper, in widths: it does not cut into the paper."""
+ABOVE = 1.5
+"""Height of a line's middle above the paper, in widths. Where lines meet, the page errs by half a width in depth: from
+lower down the plan would shine through."""
 
 NOTHING = -1, 0.0, 0
 """Drawn before anything is."""
@@ -117,5 +118,4 @@ def _colors(ink: Ink, stray: NDArray[np.bool_]) -> NDArray[np.uint8]:
     """(n, 2, 3) where anything of the drawing is stray, else (3,)."""
     if not ink.stray.any():
         return np.array(theme.INK, dtype=np.uint8)
-    rgb = np.where(stray[:, None], np.array(theme.MARK), np.array(theme.INK)).astype(np.uint8)
-    return np.repeat(rgb[:, None], 2, axis=1)
+    return theme.line_colors(stray, theme.MARK, theme.INK)

@@ -31,8 +31,11 @@ from app.ui.refusal import Refusal
 
 Array = NDArray[np.float64]
 
-PREVIEW_PX = 900
+PREVIEW_PX = 640
 """Long side of the picture of a sheet."""
+
+THINNEST_PX = 1.7
+"""A thinner line would fade where the picture is shown."""
 
 ORIGINAL_PX = 420
 MOST_IMPROVED = 5000
@@ -167,11 +170,12 @@ def outside_of(strokes: list[Array], setup: Setup) -> list[NDArray[np.bool_]]:
 
 def picture_of(strokes: list[Array], look: Look, setup: Setup, outside: list[NDArray[np.bool_]]) -> bytes:
     """PNG of the sheet."""
+    px_per_mm = PREVIEW_PX / max(look.sheet_mm)
     return write_preview_png(
         strokes,
         look.sheet_mm,
-        PREVIEW_PX / max(look.sheet_mm),
-        pen_mm=look.pen_mm,
+        px_per_mm,
+        pen_mm=max(look.pen_mm, THINNEST_PX / px_per_mm),
         outside=outside,
         stray=setup.pen.marks_hops,
         margin_mm=look.margin_mm,

@@ -26,6 +26,7 @@ from app.ui.panels.drawing.source_panel import SourcePanel
 from app.ui.playback import Playback
 from app.ui.plots import PLOT_STYLE
 from app.ui.session import Session
+from app.ui.stage import Stage
 
 PHONE_PICTURE = "20vh"
 """Height of the drawing that also stands above the settings on a phone, where the panels are far apart."""
@@ -39,6 +40,7 @@ class DrawingRoom:
         client: viser.ClientHandle,
         session: Session,
         gizmo: Gizmo,
+        stage: Stage,
         tab: viser.GuiTabHandle,
         bench: Bench,
         quick: Callable[[], Worker],
@@ -52,7 +54,7 @@ class DrawingRoom:
         self.desk = DrawingDesk(session, quick(), quick(), slow(None))
         self._playback = Playback(session)
         self._player = DrawingPlayer(session, self._playback)
-        self._scene = DrawingScene(client, session, gizmo, self.desk, self._player)
+        self._scene = DrawingScene(client, session, gizmo, stage, self.desk, self._player)
         self._panel = bench.add_panel()
         self._plays: list[PlayPanel] = []
         self._closed = False
@@ -90,7 +92,7 @@ class DrawingRoom:
                 self._plays.append(PlayPanel(client.gui, desk, self._player))
             SourcePanel(client, desk)
             LookPanel(client.gui, desk)
-            SheetPanel(client.gui, desk, self._scene.placing)
+            SheetPanel(client.gui, desk, self._scene.placing, self._scene.look)
             PenPanel(client.gui, desk)
 
     def _add_drawing(self) -> None:

@@ -11,23 +11,37 @@ from app.ui.drawing.player import DrawingPlayer
 from app.ui.drawing.sheet_view import SheetView
 from app.ui.gizmo import Gizmo
 from app.ui.session import Session
+from app.ui.stage import Stage
+
+ROOM_AROUND = 2.6
+"""What the camera shows of the sheet's surroundings, in its long sides."""
 
 
 class DrawingScene:
     """Connects desk, sheet, ink and player."""
 
     def __init__(
-        self, client: viser.ClientHandle, session: Session, gizmo: Gizmo, desk: DrawingDesk, player: DrawingPlayer
+        self,
+        client: viser.ClientHandle,
+        session: Session,
+        gizmo: Gizmo,
+        stage: Stage,
+        desk: DrawingDesk,
+        player: DrawingPlayer,
     ) -> None:
+        self._stage = stage
         self._gizmo = gizmo
         self._desk = desk
         self._player = player
+        self._placing = False
+        self._looked_at = ""
         self._sheet = SheetView(client, session)
         self._ink = InkView(client.scene)
         desk.settled = lambda: player.state in ("empty", "ready")
         desk.sketched.connect(self._show)
         desk.planned.connect(self._load)
         desk.moved.connect(self._warn)
+        player.state_changed.connect(lambda _: self._show_handles())
         player.moved.connect(lambda _: self._ink.show(*player.drawn))
         self._sheet.moved.connect(lambda placement: desk.move_sheet(placement, finished=False))
         self._sheet.released.connect(desk.move_sheet)
@@ -36,16 +50,28 @@ class DrawingScene:
         """Show or hide the sheet."""
         self._sheet.visible(on)
 
+    def look(self) -> None:
+        """Turn the camera to the sheet."""
+        self._stage.look_down_on(self._sheet.middle, ROOM_AROUND * 1e-3 * max(self._desk.settings.sheet_mm))
+
     def placing(self, on: bool) -> None:
         """Handles on the sheet in place of those on the robot's tool: both are at the same spot."""
+        self._placing = on
         self._sheet.placing(on)
-        self._gizmo.visible(not on)
+        self._show_handles()
 
     def close(self) -> None:
         self._ink.close()
 
+    def _show_handles(self) -> None:
+        """While the robot draws, its handles would hide what it draws."""
+        self._gizmo.visible(not self._placing and self._player.state not in ("drawing", "pausing"))
+
     def _show(self, sketch: Sketch) -> None:
         self._sheet.place(sketch.setup.placement, sketch.look.sheet_mm)
+        if sketch.setup.robot != self._looked_at:
+            self._looked_at = sketch.setup.robot
+            self.look()
         self._sheet.show_plan(sketch.strokes, sketch.outside)
         metres = [1e-3 * stroke for stroke in sketch.strokes]
         self._ink.load(metres, 1e-3 * sketch.look.pen_mm, sketch.setup.pen.marks_hops)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from app.drawing.toolpath import Placement
 from app.robots.parts import machine_of
 from app.ui import theme
+from app.ui.drawing.ink import along
 from app.ui.session import Session, Signal
 from app.ui.viser_adapter import NodeStream, silence_gizmo_echo
 
@@ -19,9 +20,11 @@ THICKNESS_M = 0.0015
 EDGE_M = 0.0008
 """Width of the border around the paper."""
 
-PLAN_WIDTH_M = 0.0006
-ABOVE_PAPER_M = 0.0002
-"""Height of the plan, below the ink."""
+LAYER_M = 0.0002
+"""Between paper and plan, so that neither shines through; the ink lies higher."""
+
+PLAN_WIDTH_M = 0.0005
+SHADOW = 0.15
 
 HANDLE_M = 0.12
 FARTHEST_M = 1.0
@@ -46,8 +49,23 @@ class SheetView:
         self._shown = self._placing = self._dragged = False
         scene = client.scene
         self._frame = scene.add_frame("/robot/sheet", show_axes=False, visible=False)
-        self._paper = scene.add_box("/robot/sheet/paper", theme.PAPER)
-        self._edge = scene.add_box("/robot/sheet/edge", theme.PAPER_EDGE, cast_shadow=False, receive_shadow=False)
+        # a grid without lines: unlike a lit surface it is white in any light, and still receives shadows
+        self._paper = scene.add_grid(
+            "/robot/sheet/paper",
+            cell_thickness=0.0,
+            section_thickness=0.0,
+            fade_distance=1e6,
+            shadow_opacity=SHADOW,
+            plane_color=theme.PAPER,
+            plane_opacity=1.0,
+        )
+        self._edge = scene.add_box(
+            "/robot/sheet/edge",
+            theme.PAPER_EDGE,
+            cast_shadow=False,  # it would fall on the paper
+            receive_shadow=False,
+            position=(0.0, 0.0, -0.5 * THICKNESS_M - LAYER_M),
+        )
         self._plan: viser.LineSegmentsHandle | None = None
         self._handle = scene.add_transform_controls(
             "/robot/sheet_handle", HANDLE_M, active_axes=(True, True, False), depth_test=False, visible=False
@@ -60,6 +78,12 @@ class SheetView:
         self._shown = self._frame.visible = on
         self._show_handle()
 
+    @property
+    def middle(self) -> tuple[float, float, float]:
+        """Of the sheet as it is drawn, m."""
+        x, y = self._placement.centre_m
+        return x, y, self._placement.height_m + machine_of(self._session.robot).tool_tip
+
     def placing(self, on: bool) -> None:
         """Show the handle; the caller hides the robot's own (`Gizmo.visible`) meanwhile."""
         self._placing = on
@@ -68,10 +92,8 @@ class SheetView:
     def place(self, placement: Placement, sheet_mm: tuple[float, float]) -> None:
         """Lay down a sheet of this width and height."""
         width, height = (1e-3 * side for side in sheet_mm)
-        self._paper.dimensions = (width, height, THICKNESS_M)
+        self._paper.width, self._paper.height = width, height
         self._edge.dimensions = (width + 2 * EDGE_M, height + 2 * EDGE_M, THICKNESS_M)
-        self._paper.position = (0.0, 0.0, -0.5 * THICKNESS_M)
-        self._edge.position = (0.0, 0.0, -0.5 * THICKNESS_M - ABOVE_PAPER_M)
         self._lay(placement)
 
     def show_plan(self, strokes_mm: Sequence[NDArray[np.float64]], outside: Sequence[NDArray[np.bool_]]) -> None:
@@ -91,8 +113,7 @@ class SheetView:
     def _lay(self, placement: Placement) -> None:
         """Move the sheet, and the handle unless it is in hand."""
         self._placement = placement
-        x, y = placement.centre_m
-        position = x, y, placement.height_m + machine_of(self._session.robot).tool_tip
+        position = self.middle
         wxyz = math.cos(placement.rotation_rad / 2), 0.0, 0.0, math.sin(placement.rotation_rad / 2)
         self._stream.move(self._frame, position, wxyz)
         if not self._dragged:
@@ -118,14 +139,9 @@ def plan_lines(
     strokes_mm: Sequence[NDArray[np.float64]], outside: Sequence[NDArray[np.bool_]]
 ) -> tuple[NDArray[np.float32], NDArray[np.uint8]]:
     """Segments (s, 2, 3), m, and their colours: (s, 2, 3), or (3,) where all is within reach."""
-    points, beyond = 1e-3 * np.concatenate(strokes_mm), np.concatenate(outside)
-    within = np.ones(len(points) - 1, dtype=bool)
-    within[np.cumsum([len(stroke) for stroke in strokes_mm])[:-1] - 1] = False
-    begin = np.flatnonzero(within)
-    segments = np.full((len(begin), 2, 3), ABOVE_PAPER_M, dtype=np.float32)
-    segments[:, 0, :2], segments[:, 1, :2] = points[begin], points[begin + 1]
+    segments, begin = along([1e-3 * stroke for stroke in strokes_mm], LAYER_M, gaps=False)
+    beyond = np.concatenate(outside)
     if not beyond.any():
         return segments, np.array(theme.PLAN, dtype=np.uint8)
     wrong = beyond[begin] | beyond[begin + 1]
-    rgb = np.where(wrong[:, None], np.array(theme.WARNING), np.array(theme.PLAN)).astype(np.uint8)
-    return segments, np.repeat(rgb[:, None], 2, axis=1)
+    return segments, theme.line_colors(wrong, theme.WARNING, theme.PLAN)

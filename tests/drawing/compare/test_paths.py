@@ -26,10 +26,10 @@ def test_rows_are_at_most_a_pitch_apart(pitch: float):
     assert np.diff(rows).max() <= pitch + 1e-9 and len(rows) >= 2
 
 
-@pytest.mark.parametrize("arguments", [{"pitch_mm": 0.0}, {"margin_mm": 74.0}])
-def test_a_zigzag_without_room_is_refused(arguments: dict[str, float]):
+@pytest.mark.parametrize(("pitch", "margin"), [(0.0, 10.0), (5.0, 74.0)])
+def test_a_zigzag_without_room_is_refused(pitch: float, margin: float):
     with pytest.raises(DrawingError, match="room"):
-        zigzag(**arguments)
+        zigzag((148.0, 210.0), pitch, margin)
 
 
 @pytest.mark.parametrize(("petals", "tips"), [(2, 4), (3, 3), (4, 8), (5, 5)])

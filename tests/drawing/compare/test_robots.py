@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from app.drawing.compare import robots
 from app.drawing.compare.robots import draw_on, largest_scale
 from app.drawing.toolpath import (
     PenSettings,
@@ -48,7 +49,7 @@ def test_by_default_the_pen_is_what_suits_the_robot(name: str):
 
 @pytest.mark.parametrize("name", ROBOTS)
 def test_what_is_too_large_is_drawn_as_large_as_it_fits(name: str):
-    strokes = [circle(260.0), line((-50.0, 0.0), (50.0, 0.0))]
+    strokes = [circle(400.0), line((-50.0, 0.0), (50.0, 0.0))]
     robot = make_robot(name)
     placement, pen = default_placement(robot), default_pen(robot)
     result = draw_on(strokes, name)
@@ -65,7 +66,7 @@ def test_the_largest_scale_is_where_the_reach_ends(turn: float):
     robot = make_robot("delta3")
     placement = default_placement(robot)
     direction = np.array([math.cos(turn), math.sin(turn)])
-    scale = largest_scale([np.array([[0.0, 0.0], 600.0 * direction])], robot, placement, lift_mm=4.0)
+    scale = largest_scale([np.array([[0.0, 0.0], 600.0 * direction])], robot, placement, PenSettings())
     shares = np.linspace(0.0, 1.0, 6001)
     pose = np.zeros((len(shares), 3))
     pose[:, :2] = 0.6 * shares[:, None] * direction
@@ -74,6 +75,14 @@ def test_the_largest_scale_is_where_the_reach_ends(turn: float):
     for pose[:, 2] in heights:
         ends.append(shares[np.argmin(robot.reachable(pose))])
     assert scale == pytest.approx(min(ends), abs=1.5e-3) and scale <= min(ends)
+
+
+def test_where_the_ways_between_do_not_fit_it_is_drawn_still_smaller(monkeypatch: pytest.MonkeyPatch):
+    """The reach of the strokes is made to seem larger than it is."""
+    strokes = [circle(400.0)]
+    fitting = draw_on(strokes, "delta3").scaled_to
+    monkeypatch.setattr(robots, "largest_scale", lambda *_: 1.1 * fitting)
+    assert draw_on(strokes, "delta3").scaled_to == pytest.approx(1.1 * fitting * robots.SHRINK**4)
 
 
 def test_other_dimensions_are_another_robot():
@@ -87,7 +96,7 @@ def test_other_dimensions_are_another_robot():
         ([], "delta3", None, {}, "nothing to draw"),
         ([circle(20.0)], "hexapod", None, {}, "no robot"),
         ([circle(20.0)], "delta3", None, {"rf": 90.0}, "rf"),
-        ([circle(20.0) + 5000.0], "par4", None, {}, "beyond the robot"),
+        ([circle(20.0) + 50_000.0], "par4", None, {}, "beyond the robot"),
         ([circle(40.0)] * 20, "linear", PenSettings(speed_mm_s=1.0), {}, "minutes"),
         ([np.array([[math.nan, 0.0], [1.0, 0.0]])], "delta3", None, {}, "not a list of points"),
     ],

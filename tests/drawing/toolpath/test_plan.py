@@ -53,7 +53,7 @@ def test_every_kind_of_stroke(name: str):
     placement = default_placement(robot)
     path = plan_toolpath(strokes, robot, placement)
     check_safe(path, robot)
-    check_drawn(path, strokes, placement, 4.0)
+    check_drawn(path, strokes, placement, 2.0 if name == "fivebar" else 4.0)
     up = path.stroke < 0
     assert not path.pen[up].any() and (path.pose[up, 2] > placement.height_m).all()
     assert path.stray_ink_mm == 0.0
@@ -102,6 +102,7 @@ def test_without_a_lift_every_travel_is_drawn(name: str):
     check_drawn(path, strokes, placement, 4.0)
     travels = [np.hypot(*(after[0] - before[-1])) for before, after in pairwise(strokes)]
     assert path.stray_ink_mm == pytest.approx(sum(travels), abs=1e-6)
+    assert sum(travels) > 100.0
     down = np.flatnonzero(path.pen)
     assert np.array_equal(down, np.arange(down[0], down[-1] + 1))
     assert (path.pose[path.pen, 2] == placement.height_m).all()

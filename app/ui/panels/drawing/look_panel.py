@@ -26,7 +26,7 @@ class LookPanel:
     def __init__(self, gui: viser.GuiApi, desk: DrawingDesk) -> None:
         self._desk = desk
         with gui.add_folder("How to draw it"):
-            self._preset = gui.add_dropdown("Preset", (NO_PRESET, *PRESET_TITLES), initial_value=NO_PRESET)
+            self._preset = gui.add_dropdown("Start from", (NO_PRESET, *PRESET_TITLES), initial_value=NO_PRESET)
             title = DRAWING_MODES[desk.settings.look.mode].title
             self._mode = gui.add_dropdown("Mode", tuple(MODE_TITLES), initial_value=title)
             self._about = gui.add_html("")

@@ -34,9 +34,9 @@ class PreviewPanel:
         desk.refused.connect(self._tell)
 
     def _show(self, sketch: Sketch) -> None:
-        figures = [] if sketch.original is None else [("Picture", "jpeg", sketch.original)]
-        figures.append(("Drawing", "png", sketch.preview))
-        shown = "".join(_figure(caption, kind, data, self._height) for caption, kind, data in figures)
+        shown = _figure("Drawing", 3, "png", sketch.preview, self._height)
+        if sketch.original is not None:
+            shown = _figure("Picture", 2, "jpeg", sketch.original, self._height) + shown
         legend = small(STRAY if sketch.setup.pen.marks_hops else LEGEND)
         self._pictures.content = (
             f'<div style="display:flex;gap:8px;padding:8px 12px 2px;align-items:flex-start">{shown}</div>{legend}'
@@ -53,10 +53,11 @@ class PreviewPanel:
             self._problem.content = problem(refusal.reason) + small("The last drawing stays.")
 
 
-def _figure(caption: str, kind: str, data: bytes, height: str) -> str:
+def _figure(caption: str, share: int, kind: str, data: bytes, height: str) -> str:
+    """HTML of a picture that takes its share of the width."""
     source = f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
     return (
-        '<figure style="margin:0;flex:1 1 0;min-width:0;text-align:center">'
+        f'<figure style="margin:0;flex:{share} 1 0;min-width:0;text-align:center">'
         f'<img alt="{caption}" src="{source}" style="max-width:100%;max-height:{height};object-fit:contain">'
         f'<figcaption style="font-size:0.78em;opacity:0.8">{caption}</figcaption></figure>'
     )
@@ -79,10 +80,11 @@ def numbers_table(sketch: Sketch, plan: Plan | None) -> str:
     if plan is not None and plan.stray_ink_mm:
         rows.append(("Stray ink", _length(plan.stray_ink_mm)))
     if plan is not None:
-        rows.append(("Fastest joint", f"{plan.peak_speed:.0%} of its limit"))
+        rows.append(("Joint speed", f"{plan.peak_speed:.0%} of limit"))
     if sketch.similarity is not None:
-        rows.append(("Similarity to the picture", f"{sketch.similarity:.0%}"))
-    cells = [f'<td>{name}</td><td style="text-align:right"><b>{value}</b></td>' for name, value in rows]
+        rows.append(("Similar tones", f"{sketch.similarity:.0%}"))
+    right = "text-align:right;white-space:nowrap"
+    cells = [f'<td>{name}</td><td style="{right}"><b>{value}</b></td>' for name, value in rows]
     pairs = [
         f'<tr>{cells[k]}<td style="width:14px"></td>{cells[k + 1] if k + 1 < len(cells) else "<td></td><td></td>"}</tr>'
         for k in range(0, len(cells), 2)

@@ -17,11 +17,14 @@ FARTHEST_MM = 2000.0
 
 
 class SheetPanel:
-    """The folder `Sheet`. `placing` shows or hides the handles that move the sheet in 3-D."""
+    """The folder `Sheet`. `placing` shows the handles that move the sheet, `look` turns the camera to it."""
 
-    def __init__(self, gui: viser.GuiApi, desk: DrawingDesk, placing: Callable[[bool], None]) -> None:
+    def __init__(
+        self, gui: viser.GuiApi, desk: DrawingDesk, placing: Callable[[bool], None], look: Callable[[], None]
+    ) -> None:
         self._desk = desk
         self._placing = placing
+        self._look = look
         settings = desk.settings
         with gui.add_folder("Sheet"):
             self._size = gui.add_dropdown("Size", tuple(SHEETS_MM), initial_value=settings.sheet)
@@ -35,6 +38,7 @@ class SheetPanel:
             self._y = gui.add_number("Sheet y (mm)", 0.0, min=-FARTHEST_MM, max=FARTHEST_MM, step=1.0)
             self._height = gui.add_number("Sheet height z (mm)", 0.0, min=-FARTHEST_MM, max=FARTHEST_MM, step=1.0)
             self._turn = gui.add_number("Sheet turned (deg)", 0.0, min=-360.0, max=360.0, step=1.0)
+            self._see = gui.add_button("Look at the sheet", icon=viser.Icon.EYE, color="gray")
             self._back = gui.add_button("Put the sheet back", icon=viser.Icon.RESTORE, color="gray")
         self._listen()
         desk.settings_changed.connect(self._follow)
@@ -62,6 +66,10 @@ class SheetPanel:
         @self._move.on_update
         async def _(event: viser.GuiEvent[viser.GuiCheckboxHandle]) -> None:
             self._placing(event.target.value)
+
+        @self._see.on_click
+        async def _(_: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
+            self._look()
 
         @self._back.on_click
         async def _(_: viser.GuiEvent[viser.GuiButtonHandle]) -> None:

@@ -34,6 +34,7 @@ class SourcePanel:
         )
         self._choice = gui.add_dropdown("Picture", self._options(), initial_value=self._shown())
         self._text = gui.add_text("Text", FIRST_TEXT, multiline=True, visible=False)
+        self._sheet_mm = (0.0, 0.0)
         self._pad_folder = gui.add_folder(None, visible=False)
         with self._pad_folder:
             self._pad = Pad(client, desk.take_strokes)
@@ -88,7 +89,9 @@ class SourcePanel:
                 element.visible = shown
 
     def _follow(self, settings: DrawingSettings) -> None:
-        self._pad.show_sheet(settings.sheet_mm)
+        if settings.sheet_mm != self._sheet_mm:
+            self._sheet_mm = settings.sheet_mm
+            self._pad.show_sheet(settings.sheet_mm)
         if self._choice.value == HAND and self._desk.source_name != "hand" and not self._pad.strokes:
             return  # somebody is about to draw
         show_options(self._choice, self._options(), self._shown())
