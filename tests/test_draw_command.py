@@ -59,6 +59,56 @@ def test_several_pictures_at_once_and_a_bad_one_among_them(
     assert printed.err.strip().splitlines()[-1].startswith("bad.jpg: ")
 
 
+def test_an_svg_is_drawn_as_it_is(image: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    """Not by its name: what the first command wrote, larger, without a mode."""
+    assert main(["draw", str(image), "-o", str(tmp_path / "a.svg"), "--sheet", "80x80"]) == 0
+    (tmp_path / "a.png").write_bytes((tmp_path / "a.svg").read_bytes())
+    assert main(["draw", str(tmp_path / "a.png"), "-o", str(tmp_path / "b.svg"), "--margin", "10"]) == 0
+    assert "b.svg: 3 strokes" in capsys.readouterr().out
+    small, large = (read_svg((tmp_path / name).read_bytes()) for name in ("a.svg", "b.svg"))
+    sides = [float(np.ptp(np.concatenate(strokes), axis=0).max()) for strokes in (small, large)]
+    assert sides[1] == pytest.approx(140.0, abs=0.1)
+    assert length_mm(large) / length_mm(small) == pytest.approx(sides[1] / sides[0], rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("options", "width", "height"),
+    [
+        (["--sheet", "a6"], 105.0, 148.0),
+        (["--sheet", "A5", "--landscape"], 210.0, 148.0),
+        (["--sheet", "A4"], 210.0, 297.0),
+        (["--sheet", "120x90.5"], 120.0, 90.5),
+    ],
+)
+def test_sheets(options: list[str], width: float, height: float, image: Path, tmp_path: Path):
+    output = tmp_path / "a.txt"
+    assert main(["draw", str(image), "-o", str(output), "--margin", "30", *options]) == 0
+    strokes, sheet = read_points_file(output.read_text())
+    assert sheet == (width, height)
+    reach = np.abs(np.concatenate(strokes)).max()
+    assert reach == pytest.approx((min(sheet) / 2 - 30.0) * 130 / 150, abs=1.0)
+
+
+def test_progress_is_for_terminals_only(
+    image: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+):
+    arguments = ["draw", str(image), "-o", str(tmp_path / "a.svg")]
+    assert main(arguments) == 0
+    quiet = capsys.readouterr()
+    assert quiet.err == "" and quiet.out.count("\n") == 1
+    monkeypatch.setenv("FORCE_COLOR", "1")  # rich takes this for a terminal
+    assert main(arguments) == 0
+    shown = capsys.readouterr()
+    assert shown.out == quiet.out and "cross.png" in shown.err
+
+
+def test_two_pictures_never_write_the_same_file(image: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    other = picture(tmp_path / "cross.jpg")
+    assert main(["draw", str(image), str(other), "-o", str(tmp_path / "out" / ".svg")]) == EXIT_MISTAKE
+    assert "cross.png and cross.jpg would both become" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
@@ -68,6 +118,10 @@ def test_several_pictures_at_once_and_a_bad_one_among_them(
         (["--set", "gamma"], "written name=value"),
         (["--set", "colour=red"], "no setting colour"),
         (["--set", "gamma=-1"], "amma"),
+        (["--set", "gamma=red"], "gamma cannot be 'red'"),
+        (["--set", "mode=canny"], "mode is no setting"),
+        (["--margin", "80"], "no room"),
+        (["--mode", "canny", "--set", "high=100000"], "nothing to draw"),
         (["--sheet", "900x900"], "beyond the robot"),
         (["-o", "x.pdf"], "Cannot write x.pdf"),
     ],

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from app.drawing.errors import DrawingError
+from app.drawing.errors import DrawingError, TooManyStrokes
 
 if TYPE_CHECKING:
     from app.drawing.pipeline import Drawing
 
-__all__ = ["DrawingError", "draw_image"]
+__all__ = ["DrawingError", "TooManyStrokes", "draw_image"]
 
 
 def draw_image(image_bytes: bytes, *arguments: Any, **parameters: Any) -> Drawing:

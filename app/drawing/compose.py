@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from app.drawing.crowd import too_many
+from app.drawing.crowd import in_words, too_many
 from app.drawing.errors import DrawingError, TooManyStrokes
 from app.drawing.fitting import fitted, leaves_sheet, on_sheet, pixel_mm, room_mm, seen_width
 from app.drawing.likeness import likeness
@@ -35,7 +35,7 @@ FINEST_PEN_MM, WIDEST_PEN_MM = 0.05, 20.0
 MANY = 2000
 """Strokes that are put in a good order, not in the best: that would gain half a per cent and take a second."""
 
-NO_INK = "There is nothing to draw in this picture: choose another mode, or lower its thresholds."
+NO_INK = "There is nothing to draw in this picture: choose another mode, lower its thresholds or smooth less."
 LARGE = "The drawing is larger than its sheet: choose a smaller scale."
 
 
@@ -106,7 +106,7 @@ def compose(
     if not FINEST_PEN_MM <= look.pen_mm <= WIDEST_PEN_MM:
         raise DrawingError(f"A pen cannot be {look.pen_mm:g} mm wide; choose {FINEST_PEN_MM:g} to {WIDEST_PEN_MM:g}.")
     on_stage("lines")
-    lines = _given(source.strokes or [], look) if source.grey is None else _drawn(source.grey, look, settings)
+    lines = _given(source, look) if source.grey is None else _drawn(source.grey, look, settings)
     if not lines.strokes:
         raise DrawingError(NO_INK)
     on_stage("order")
@@ -124,14 +124,16 @@ def _ordered(strokes: list[Array], order_s: float, seed: int) -> list[Array]:
     return join_touching(found)
 
 
-def _given(strokes: list[Array], look: Look) -> _Lines:
-    """A source of strokes, fitted to the sheet."""
+def _given(source: Source, look: Look) -> _Lines:
+    """A source of strokes, fitted to the sheet unless they have their place on it."""
+    strokes, room = source.strokes or [], room_mm(look.sheet_mm, look.margin_mm, look.scale)
     if len(strokes) > MAX_STROKES:
         raise TooManyStrokes(
-            f"This drawing has {len(strokes)} strokes, more than the {MAX_STROKES} that make sense; simplify it.",
+            f"This drawing has {in_words(len(strokes))} strokes, more than the {in_words(MAX_STROKES)} that make "
+            "sense: simplify it in the program that made it.",
             len(strokes),
         )
-    placed = fitted(strokes, room_mm(look.sheet_mm, look.margin_mm, look.scale))
+    placed = strokes if source.in_place else fitted(strokes, room)
     return _Lines(placed, STROKES, "Its strokes are drawn as they are.", [], None, 1.0)
 
 

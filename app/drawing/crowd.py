@@ -12,7 +12,7 @@ from app.drawing.rasterise import RASTER_MODES
 Settings = Mapping[str, Any]
 
 VERY_MANY = 50_000
-SMOOTH, VERY_SMOOTH, LARGEST_SMOOTH = 9, 13, 31
+SMOOTH, VERY_SMOOTH, LARGEST_SMOOTH = 9, 15, 31
 WIDTH_PX = 300.0
 """Where not even the largest blur was enough."""
 

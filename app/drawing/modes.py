@@ -48,7 +48,7 @@ class Preset:
 
 
 WIDTH = Parameter(
-    "width", "Width", 1000.0, 100.0, 2000.0, 20.0, "px", True,
+    "width", "Width", 1000.0, 100.0, 1400.0, 20.0, "px", True,
     explanation="Pixels across the picture before anything is sought in it: fewer leave out detail.",
 )  # fmt: skip
 GAMMA = Parameter(
@@ -65,11 +65,11 @@ APERTURE = Parameter(
     explanation="Size of the Sobel kernel that measures the slope of the tones: a larger one sees softer edges.",
 )  # fmt: skip
 LOW = Parameter(
-    "low", "Low threshold", 40.0, 0.0, 500.0, 5.0, auto=True,
+    "low", "Low threshold", 40.0, 0.0, 300.0, 5.0, auto=True,
     explanation="Slope at which an edge ends: lower makes edges longer.",
 )  # fmt: skip
 HIGH = Parameter(
-    "high", "High threshold", 100.0, 0.0, 1000.0, 5.0, auto=True,
+    "high", "High threshold", 100.0, 0.0, 600.0, 5.0, auto=True,
     explanation="Slope at which an edge may start: higher keeps only the clear ones.",
 )  # fmt: skip
 EDGES = (APERTURE, LOW, HIGH)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import PurePath
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from app.drawing.errors import DrawingError
 from app.drawing.exports.points_file import TITLE as POINTS_TITLE
@@ -60,7 +60,7 @@ def text_source(text: str) -> Source:
     return Source(title if len(title) <= LONGEST_TITLE else title[: LONGEST_TITLE - 1] + "…", None, strokes, notes)
 
 
-def strokes_source(title: str, strokes: Sequence[Array], *, in_place: bool = False) -> Source:
+def strokes_source(title: str, strokes: Sequence[ArrayLike], *, in_place: bool = False) -> Source:
     """Strokes (n, 2), y up, say of a hand; in place if they are sheet millimetres already."""
     arrays = [np.asarray(stroke, dtype=np.float64) for stroke in strokes]
     if not arrays:

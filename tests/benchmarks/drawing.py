@@ -5,7 +5,7 @@
 FOLDER holds astronaut.png, camera.png, coffee.png, chelsea.png, motorcycle.png (the left one) and page.png from the
 data of scikit-image. PYTHON is an interpreter that has vpype, sknw, scikit-image and toppra; without it only our own
 figures are printed. All strokes are timed with the same planner on the same delta3, sheet and pen. The baseline is
-what a practised user of vpype does: sknw's strokes of the same Canny edges, merged, simplified, filtered and sorted
+what vpype gives with its defaults: sknw's strokes of the same Canny edges, merged, simplified, filtered and sorted
 by two-opt. The paper's way is the contours of Canny's edges as found, with a lift.
 """
 
@@ -152,9 +152,9 @@ def _against_optimal(path: Toolpath, name: str, python: Path | None) -> list[Row
 
 def main() -> None:
     options = tyro.cli(Options, description=__doc__)
-    photos = [read_photo(options.photos, name) for name in (*PHOTOS, PAGE)]
+    photos = [read_photo(options.photos, name) for name in PHOTOS]
     rows = [
-        *photo_rows(photos, options.peers),
+        *photo_rows(photos, read_photo(options.photos, PAGE), options.peers),
         *line_art_rows(),
         *tone_rows(photos),
         *random_order_rows(options.peers),

@@ -2,7 +2,7 @@
 
     PYTHON drawing_peers.py sknw|vpype|toppra INPUT.npz OUTPUT.npz [COMMANDS]
 
-Strokes are exchanged as files, see `save_strokes`. Seconds are of the processor, without the start.
+Strokes are exchanged as files, see `pack`. Seconds are of the processor, without the start.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def sknw(given: Mapping[str, Any]) -> dict[str, Any]:
         if np.linalg.norm(way[0] - ends[0]) > np.linalg.norm(way[-1] - ends[0]):
             ends.reverse()
         strokes.append(np.vstack([ends[0], way, ends[1]])[:, ::-1])
-    return pack(strokes) | {"seconds": time.process_time() - start}
+    return pack([stroke for stroke in strokes if len(stroke) > 1]) | {"seconds": time.process_time() - start}
 
 
 def vpype(given: Mapping[str, Any], commands: str) -> dict[str, Any]:

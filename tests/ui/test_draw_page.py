@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from app.drawing.exports import read_points_file
+from app.drawing.exports import EXPORTS, read_points_file
 from app.drawing.samples import sample_bytes
 from app.drawing.svg_import import read_svg
 from tests.support.browser import DESKTOP, PHONE, drag_gizmo, new_page, node_pose, open_page, screenshot, wait_until
@@ -46,9 +46,13 @@ def desk(shared_page: Page) -> Page:
     """The line drawing of a robot on A6, ready to be drawn, pen and sheet as they are at first."""
     page = shared_page
     open_tab(page, "Drawing")
-    choose(page, "Start from", "Line art")
     choose(page, "Picture", "Delta robot")
+    field(page, "Start from").wait_for()
+    choose(page, "Start from", "Line art")
+    wait_until(page, lambda: cell(page, "Mode").inner_text() == "Centre lines", "the line drawing")
     choose(page, "Size", "A6")
+    if field(page, "Landscape").is_checked():
+        toggle(page, "Landscape")
     press(page, "Put the sheet back")
     if button(page, "Stop and go home").is_enabled():
         press(page, "Stop and go home")
@@ -60,7 +64,7 @@ def open_draw(page: Page, server: RunningServer) -> None:
     open_page(page, server.url, [TOOL])
     page.get_by_role("tab", name="Draw", exact=True).wait_for()
     open_tab(page, "Draw")
-    wait_until(page, lambda: cell(page, "Strokes").is_visible(), "the first drawing", timeout=60)
+    page.get_by_alt_text("Drawing", exact=True).first.wait_for(timeout=60_000)
 
 
 def ready(page: Page) -> None:
@@ -110,15 +114,6 @@ def nodes(page: Page, start: str) -> list[str]:
     ]
 
 
-def photo(folder: Path, name: str, side: int = 700) -> Path:
-    """A JPEG with a bright disc and soft stripes, of one's own."""
-    y, x = np.mgrid[:side, :side]
-    grey = 120 + 60 * np.sin(x / 40.0) + 70 * (np.hypot(x - side / 2, y - side / 2) < side / 4)
-    path = folder / name
-    path.write_bytes(cv2.imencode(".jpg", np.clip(grey, 0, 255).astype(np.uint8))[1].tobytes())
-    return path
-
-
 def test_the_tab_opens_with_a_drawing_and_its_numbers(desk: Page):
     page = desk
     assert number(page, "Strokes") > 5
@@ -132,14 +127,16 @@ def test_the_tab_opens_with_a_drawing_and_its_numbers(desk: Page):
 
 def test_a_photo_is_uploaded_and_follows_the_knobs(desk: Page, tmp_path: Path):
     page = desk
-    upload(page, "Upload a picture", photo(tmp_path, "stripes.jpg"))
-    wait_until(page, lambda: field(page, "Picture").input_value() == "stripes.jpg", "my picture")
+    path = tmp_path / "my cat.jpg"
+    path.write_bytes(sample_bytes("cat"))
+    upload(page, "Upload a picture", path)
+    wait_until(page, lambda: field(page, "Picture").input_value() == "my cat.jpg", "my picture")
     choose(page, "Mode", "Edges (Canny)")
     wait_until(page, lambda: cell(page, "Mode").inner_text() == "Edges (Canny)", "its edges")
     ready(page)
     before, ink = picture(page, "Drawing"), number(page, "Ink")
     toggle(page, "High threshold: automatic")
-    set_slider(page, "High threshold", 300)
+    set_slider(page, "High threshold", 600)
     wait_until(page, lambda: number(page, "Ink") < 0.8 * ink, "fewer lines with a high threshold")
     assert not np.array_equal(before, picture(page, "Drawing"))
     set_slider(page, "Smooth (px)", 9)
@@ -232,13 +229,13 @@ def unfold_pen(page: Page) -> None:
 
 def test_every_format_is_saved_as_shown(desk: Page):
     page = desk
-    strokes = read_svg(saved(page, "SVG, one polyline a stroke"))
+    strokes = read_svg(saved(page, EXPORTS[".svg"].title))
     assert len(strokes) == number(page, "Strokes")
     length = sum(float(np.linalg.norm(np.diff(stroke, axis=0), axis=1).sum()) for stroke in strokes)
     assert length == pytest.approx(number(page, "Ink"), rel=0.01)
-    points, sheet = read_points_file(saved(page, "Ptos_Dibujo.txt, points x y z").decode())
+    points, sheet = read_points_file(saved(page, EXPORTS[".txt"].title).decode())
     assert len(points) == len(strokes) and sheet == (105.0, 148.0)
-    gcode = saved(page, "G-code for a pen plotter under GRBL").decode()
+    gcode = saved(page, EXPORTS[".gcode"].title).decode()
     assert gcode.count("G1 Z0") == len(strokes)
     timed = np.loadtxt(io.StringIO(saved(page, "CSV of the robot's path in time").decode()), delimiter=",", skiprows=1)
     assert timed[-1, 0] == pytest.approx(number(page, "Drawing time"), abs=0.6)
@@ -275,7 +272,10 @@ def test_the_sheet_is_moved_by_its_handle(desk: Page):
 def test_text_becomes_strokes(desk: Page):
     page = desk
     choose(page, "Picture", "A text")
-    type_into(page, "Text", "Hola!")
+    words = page.locator("textarea").first
+    words.fill("Hola!")
+    words.press("Tab")
+    settle(page)
     wait_until(page, lambda: cell(page, "Mode").inner_text() == "Strokes as they are", "letters")
     assert 5 <= number(page, "Strokes") <= 12
     screenshot(page, "draw-text", 1.0)
@@ -297,7 +297,7 @@ def test_a_stroke_by_hand_is_drawn_where_it_was_put(desk: Page):
     settle(page)
     wait_until(page, lambda: cell(page, "Strokes").inner_text() == "1", "my stroke")
     assert number(page, "Ink") == pytest.approx(105 / 2, abs=2.0)
-    (stroke,) = read_svg(saved(page, "SVG, one polyline a stroke"))
+    (stroke,) = read_svg(saved(page, EXPORTS[".svg"].title))
     assert stroke[:, 1].mean() == pytest.approx(148 / 4, abs=1.0), "a quarter from the top"
     screenshot(page, "draw-by-hand", 0.5)
 
@@ -307,7 +307,7 @@ def test_bad_files_are_refused_and_the_drawing_stays(desk: Page, tmp_path: Path)
     strokes = number(page, "Strokes")
     for name, content, complaint in (
         ("empty.png", b"", "empty"),
-        ("letter.png", b"Dear robot, please draw me.", "not a picture"),
+        ("letter.png", b"Dear robot, please draw me.", "This is text"),
         ("half.jpg", sample_bytes("cat")[:3000], "damaged"),
     ):
         path = tmp_path / name
@@ -321,6 +321,7 @@ def test_bad_files_are_refused_and_the_drawing_stays(desk: Page, tmp_path: Path)
 def test_a_picture_of_noise_offers_a_coarser_drawing(desk: Page, tmp_path: Path):
     page = desk
     noise = np.random.default_rng(1).integers(0, 256, (1000, 1000), dtype=np.uint8)
+    choose(page, "Mode", "Outlines")
     (path := tmp_path / "noise.png").write_bytes(cv2.imencode(".png", noise)[1].tobytes())
     upload(page, "Upload a picture", path)
     button(page, "Draw it coarser").wait_for(timeout=20_000)

@@ -113,8 +113,7 @@ def test_what_cannot_be_read_or_drawn_leaves_the_drawing():
 def test_a_dense_picture_offers_settings_that_help():
     async def scene(desk: DrawingDesk, _: Session) -> None:
         drawn = await opened(desk)
-        desk.choose_mode("sketch")
-        desk.turn(shortest_mm=0.0, join_mm=0.0)
+        desk.choose_mode("outline")
         desk.take_file("noise.png", noise(1000))
         await until(lambda: isinstance(desk.refusal, TooDense), "refusal")
         before = desk.sketch

@@ -30,7 +30,7 @@ class Own(NamedTuple):
 
 OWN: dict[str, Own] = {
     "sketch": Own(shortest_mm=3.0, join_mm=1.5),
-    "canny": Own(shortest_mm=2.0, join_mm=1.5),
+    "canny": Own(shortest_mm=1.8, join_mm=2.2),
     "centreline": Own(shortest_mm=0.8, join_mm=0.8),
     "outline": Own(shortest_mm=0.8, join_mm=1.5),
 }

@@ -22,5 +22,5 @@ def outline_edges(
     """(mask of the borders of shapes, size of the gradient), both (h, w), of a picture (h, w)."""
     if high == "auto":
         size = gradients(blurred(grey, BLUR * detail_scale(grey.shape)), aperture).size
-        high = max(CLEAR_SHARE * float(size.max()), LEAST_HIGH)
+        high = max(CLEAR_SHARE * float(size.max()), LEAST_HIGH, 0.0 if isinstance(low, str) else low)
     return canny_edges(grey, aperture, low, high, BLUR)

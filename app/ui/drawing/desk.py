@@ -106,6 +106,8 @@ class DrawingDesk:
         """Drawn by hand, sheet mm."""
         if strokes:
             self._receive_source("hand", strokes_source("By hand", strokes, in_place=True))
+        elif self.source_name == "hand":
+            self._refuse(Refusal("There is no stroke on the pad: draw at least one."))
 
     def turn(self, **knobs: Any) -> None:
         """Set parameters of the mode, or margin, scale and width of the pen."""

@@ -62,7 +62,8 @@ def lay_ink(strokes_m: Sequence[Array], height_m: float, stray: bool, lengths_m:
     sizes = np.array([len(stroke) for stroke in strokes_m], dtype=np.int64)
     last = np.cumsum(sizes) - 1
     first, end = np.searchsorted(begin, last - sizes + 1), np.searchsorted(begin, last)
-    travelled = np.concatenate([[0.0], np.cumsum(np.hypot(*(segments[:, 1] - segments[:, 0]).T[:2]))])
+    lengths = np.linalg.norm(segments[:, 1] - segments[:, 0], axis=1)
+    travelled = np.concatenate([[0.0], np.cumsum(lengths, dtype=float)])
     own = travelled[end] - travelled[first]
     scale = np.ones(len(sizes)) if lengths_m is None else lengths_m / own
     stroke = np.repeat(np.arange(len(sizes)), sizes)[begin]

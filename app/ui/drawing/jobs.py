@@ -147,7 +147,7 @@ def sketch(source: Source, look: Look, setup: Setup) -> Sketch | Refusal | TooDe
         look,
         found.mode,
         found.reason,
-        (*source.notes, *found.notes),
+        found.notes,
         found.similarity,
         setup,
         outside,

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import numpy as np
 import viser
+from numpy.typing import NDArray
 
 from app.ui.drawing.desk import DrawingDesk
 from app.ui.drawing.ink_view import InkView
@@ -35,6 +37,7 @@ class DrawingScene:
         self._player = player
         self._placing = False
         self._looked_at = ""
+        self._outside: list[NDArray[np.bool_]] = []
         self._sheet = SheetView(client, session)
         self._ink = InkView(client.scene)
         desk.settled = lambda: player.state in ("empty", "ready")
@@ -72,13 +75,29 @@ class DrawingScene:
         if sketch.setup.robot != self._looked_at:
             self._looked_at = sketch.setup.robot
             self.look()
-        self._sheet.show_plan(sketch.strokes, sketch.outside)
-        metres = [1e-3 * stroke for stroke in sketch.strokes]
-        self._ink.load(metres, 1e-3 * sketch.look.pen_mm, sketch.setup.pen.marks_hops)
+        self._show_plan(sketch, sketch.outside)
+
+    def _show_plan(self, sketch: Sketch, outside: list[NDArray[np.bool_]]) -> None:
+        self._outside = outside
+        self._sheet.show_plan(sketch.strokes, outside)
 
     def _load(self, plan: Plan | None) -> None:
+        """The robot's way and its ink come together: how long a stroke is, the way tells."""
+        self._ink.clear()
         self._player.load(plan.track if plan is not None else None, speed=self._player.speed)
+        sketch = self._desk.sketch
+        if plan is not None and sketch is not None:
+            metres = [1e-3 * stroke for stroke in sketch.strokes]
+            marks_hops = sketch.setup.pen.marks_hops
+            self._ink.load(metres, 1e-3 * sketch.look.pen_mm, marks_hops, self._player.lengths_m)
 
-    def _warn(self, outside: list) -> None:
-        if self._desk.sketch is not None and len(outside) == len(self._desk.sketch.strokes):
-            self._sheet.show_plan(self._desk.sketch.strokes, outside)
+    def _warn(self, outside: list[NDArray[np.bool_]]) -> None:
+        """What would be out of reach where the sheet is being dragged; sent only when it changes."""
+        sketch = self._desk.sketch
+        if sketch is None or len(outside) != len(sketch.strokes) or _alike(outside, self._outside):
+            return
+        self._show_plan(sketch, outside)
+
+
+def _alike(some: list[NDArray[np.bool_]], others: list[NDArray[np.bool_]]) -> bool:
+    return len(some) == len(others) and all(map(np.array_equal, some, others))

@@ -47,11 +47,13 @@ def test_a_corner_is_no_junction():
 
 
 def test_a_tee_is_three_branches_that_share_their_junction():
-    branches = trace(mask_of("""
+    branches = trace(
+        mask_of("""
         .......
         #######
         ...#...
-        ...#..."""))
+        ...#...""")
+    )
     assert sorted(len(line) for line in branches.lines) == [3, 4, 4]
     assert all((3, 1) in map(tuple, line.astype(int).tolist()) for line in branches.lines)
     assert np.sort(branches.degrees, axis=1).tolist() == [[1, 3]] * 3
@@ -59,10 +61,12 @@ def test_a_tee_is_three_branches_that_share_their_junction():
 
 
 def test_a_loop_on_a_stick():
-    branches = trace(mask_of("""
+    branches = trace(
+        mask_of("""
         .##...
         #..###
-        .##..."""))
+        .##...""")
+    )
     ends = [nodes for nodes in branches.nodes.tolist() if nodes[0] == nodes[1]]
     assert len(branches.lines) == 2 and len(ends) == 1
 

@@ -25,7 +25,8 @@ class LookPanel:
 
     def __init__(self, gui: viser.GuiApi, desk: DrawingDesk) -> None:
         self._desk = desk
-        with gui.add_folder("How to draw it"):
+        self._folder = gui.add_folder("How to draw it")
+        with self._folder:
             self._preset = gui.add_dropdown("Start from", (NO_PRESET, *PRESET_TITLES), initial_value=NO_PRESET)
             title = DRAWING_MODES[desk.settings.look.mode].title
             self._mode = gui.add_dropdown("Mode", tuple(MODE_TITLES), initial_value=title)
@@ -54,6 +55,9 @@ class LookPanel:
             desk.choose_mode(desk.settings.look.mode)
 
     def _follow(self, settings: DrawingSettings) -> None:
+        is_picture = self._desk.source is None or self._desk.source.grey is not None
+        if self._folder.visible != is_picture:  # what is strokes already has no knobs
+            self._folder.visible = is_picture
         mode = DRAWING_MODES[settings.look.mode]
         show_value(self._mode, mode.title)
         look = settings.look
