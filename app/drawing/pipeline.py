@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from app.drawing.modes import DRAWING_MODES
 from app.drawing.order import pen_up_mm
 from app.drawing.settings import checked_settings, is_number
 from app.drawing.source import read_source
-from app.drawing.toolpath import PenSettings, Placement, Toolpath, default_placement, plan_toolpath
+from app.drawing.toolpath import PenSettings, Placement, Toolpath, default_pen, default_placement, plan_toolpath
 from app.robots import ROBOTS, GeometryError, Robot, make_robot
 
 __all__ = ["MODES", "STAGES", "Drawing", "draw_image", "on_sheet"]
@@ -107,8 +107,8 @@ def draw_image(
     order = _numbers(parameters, ORDER)
     if not 0.0 <= order.get("order_s", 0.0) <= LONGEST_ORDER_S:
         raise DrawingError(f"The setting order_s must lie between 0 and {LONGEST_ORDER_S:g} seconds.")
-    pen = PenSettings(**_numbers(parameters, PEN))
     machine = _robot(robot)
+    pen = replace(default_pen(machine), **_numbers(parameters, PEN))
     on_stage("picture")
     source = read_source("picture", image_bytes)
     drawn = compose(source, Look(mode, sheet_mm, parameters=of_mode, **look), on_stage=on_stage, **order)

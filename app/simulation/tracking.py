@@ -46,9 +46,7 @@ class Task:
         return build_robot(self.robot, self.dimensions)
 
 
-def follow_sampled(
-    task: Task, motor: Motor, pid: Pid, sampling: Sampling, hardware: Hardware, title: str = ""
-) -> Run:
+def follow_sampled(task: Task, motor: Motor, pid: Pid, sampling: Sampling, hardware: Hardware, title: str = "") -> Run:
     """With controllers as a microcontroller runs them. Voltages.
 
     Raises:

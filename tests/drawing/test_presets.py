@@ -31,7 +31,13 @@ def test_presets_do_what_they_promise():
     assert all((stroke[0] == stroke[-1]).all() for stroke in made["dots"].strokes)
     rows = np.concatenate(made["laser"].strokes)
     assert len(np.unique(rows[:, 1].round(6))) > 20
-    assert ink(made["quick"]) < ink(made["fine"]) < ink(made["portrait"])
+
+
+def test_from_quick_to_fine_to_tones_there_is_more_ink():
+    source = Source("leaves", photo()[:400, :400])
+    presets = (PRESETS[name] for name in ("quick", "fine", "portrait"))
+    quick, fine, tones = (compose(source, Look(each.mode, parameters=each.parameters)) for each in presets)
+    assert ink(quick) < 0.9 * ink(fine) < ink(tones) and len(quick.strokes) < len(fine.strokes)
 
 
 def ink(made: Composition) -> float:

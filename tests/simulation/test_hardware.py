@@ -212,7 +212,7 @@ def test_play_lets_the_joint_rest_until_a_flank_touches_it(seed: int, play: floa
     u = voltages(seed)
     gear, joint = turned(FREE, Hardware(), u), turned(FREE, Hardware(backlash=play), u)
     assert (np.abs(gear - joint) <= play / 2 + 1e-9).all()
-    for (g, (before, after)) in zip(gear[1:], pairwise(joint), strict=True):
+    for g, (before, after) in zip(gear[1:], pairwise(joint), strict=True):
         if after > before:
             assert after == pytest.approx(g - play / 2, abs=1e-9)
         elif after < before:

@@ -42,7 +42,7 @@ def with_desk(scene: Callable[[DrawingDesk, Session], Awaitable[None]], memory: 
     async def play() -> None:
         with ThreadPoolExecutor(2) as pool:
             session = Session(memory or Memory("delta3"))
-            workers = [Worker(pool, told.append) for _ in range(3)]
+            workers = [Worker(pool, told.append) for _ in range(4)]
             await scene(DrawingDesk(session, *workers), session)
             for worker in workers:
                 worker.cancel()

@@ -20,7 +20,15 @@ from app.robots import Robot
 from app.ui.compute import Worker
 from app.ui.drawing import jobs
 from app.ui.drawing.jobs import Improved, Plan, Setup, Sketch, TooDense
-from app.ui.drawing.settings import DrawingSettings, default_settings, resized, turned, with_mode, with_preset
+from app.ui.drawing.settings import (
+    DrawingSettings,
+    default_settings,
+    resized,
+    turned,
+    turned_to_fit,
+    with_mode,
+    with_preset,
+)
 from app.ui.refusal import Refusal
 from app.ui.session import Session, Signal
 from app.ui.state import DrawingMemory
@@ -28,6 +36,9 @@ from app.ui.state import DrawingMemory
 FIRST_SAMPLE = "cat"
 IMPROVE_S = 0.5
 """At a time, so that others get their turn."""
+
+SLOW_MODES = frozenset({"one_line", "stipple", "streamlines"})
+"""These take half a second and more: nobody else's slider waits for them."""
 
 FLAT = 1.1
 """A picture whose sides differ by less is as good on either sheet."""
@@ -46,7 +57,7 @@ def lies_flat(source: Source) -> bool | None:
 class DrawingDesk:
     """The state behind every panel of the tab Draw."""
 
-    def __init__(self, session: Session, quick: Worker, reader: Worker, planner: Worker) -> None:
+    def __init__(self, session: Session, quick: Worker, thorough: Worker, reader: Worker, planner: Worker) -> None:
         self.settings_changed: Signal[DrawingSettings] = Signal()
         self.sketched: Signal[Sketch] = Signal()
         """Another drawing is shown."""
@@ -57,7 +68,7 @@ class DrawingDesk:
         self.refused: Signal[Refusal | TooDense | None] = Signal()
         """Why the last change could not be drawn; None when all is well again."""
         self._session = session
-        self._quick, self._reader, self._planner = quick, reader, planner
+        self._quick, self._thorough, self._reader, self._planner = quick, thorough, reader, planner
         memory = session.drawing
         self.settings = memory.settings if memory else default_settings(session.robot)
         self.source: Source | None = memory.source if memory else None
@@ -161,14 +172,15 @@ class DrawingDesk:
             self.settings_changed.emit(self.settings)
             return
         self.source, self.source_name = result, name
-        settings = self.settings
-        if (landscape := lies_flat(result)) is not None:
-            settings = resized(settings, settings.sheet, landscape)
-        self._change(settings)
+        self._change(turned_to_fit(self.settings, self._session.robot, lies_flat(result)))
 
     def _ask(self) -> None:
-        if self.source is not None:
-            self._quick.request(self._receive, jobs.sketch, self.source, self.settings.look, self.setup)
+        if self.source is None:
+            return
+        takes_long = self.settings.look.mode in SLOW_MODES
+        worker, other = (self._thorough, self._quick) if takes_long else (self._quick, self._thorough)
+        other.cancel()
+        worker.request(self._receive, jobs.sketch, self.source, self.settings.look, self.setup)
 
     def _replace_sheet(self) -> None:
         """The strokes stay; unless others are on their way, which then come for this sheet."""
@@ -225,5 +237,6 @@ class DrawingDesk:
         same = robot.name == self.sketch.setup.robot
         pen = self.settings.pen if same else replace(self.settings.pen, lift_mm=default_pen(robot).lift_mm)
         placement = self.settings.placement if same else None
-        self._keep(replace(self.settings, placement=placement, pen=pen))
+        settings = replace(self.settings, placement=placement, pen=pen)
+        self._keep(settings if same else turned_to_fit(settings, robot, None))
         self._replace_sheet()

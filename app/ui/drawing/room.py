@@ -51,7 +51,7 @@ class DrawingRoom:
         self._bench = bench
         self._quick = quick
         self._slow = slow
-        self.desk = DrawingDesk(session, quick(), quick(), slow(None))
+        self.desk = DrawingDesk(session, quick(), slow(None), quick(), slow(None))
         self._playback = Playback(session)
         self._player = DrawingPlayer(session, self._playback)
         self._scene = DrawingScene(client, session, gizmo, stage, self.desk, self._player)

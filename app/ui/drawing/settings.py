@@ -8,7 +8,7 @@ from typing import Any
 
 from app.drawing.compose import Look
 from app.drawing.modes import PRESETS
-from app.drawing.toolpath import PenSettings, Placement, default_pen
+from app.drawing.toolpath import PenSettings, Placement, Sheet, default_pen, default_placement, sheet_fits
 from app.robots import Robot
 
 SHEETS_MM: dict[str, tuple[float, float]] = {"A6": (105.0, 148.0), "A5": (148.0, 210.0), "A4": (210.0, 297.0)}
@@ -37,13 +37,24 @@ class DrawingSettings:
 
 def default_settings(robot: Robot) -> DrawingSettings:
     """A5 and a photo's lines."""
-    return resized(DrawingSettings(pen=default_pen(robot)), "A5", False)
+    return turned_to_fit(DrawingSettings(pen=default_pen(robot)), robot, False)
 
 
 def resized(settings: DrawingSettings, sheet: str, landscape: bool) -> DrawingSettings:
     """On another sheet."""
     settings = replace(settings, sheet=sheet, landscape=landscape)
     return replace(settings, look=replace(settings.look, sheet_mm=settings.sheet_mm))
+
+
+def turned_to_fit(settings: DrawingSettings, robot: Robot, landscape: bool | None) -> DrawingSettings:
+    """The sheet as the picture wants it (None: as it lies), unless only the other way is in the robot's reach."""
+    wanted = resized(settings, settings.sheet, settings.landscape if landscape is None else landscape)
+    other = resized(wanted, wanted.sheet, not wanted.landscape)
+    placement = settings.placement or default_placement(robot)
+    for one in (wanted, other):
+        if sheet_fits(Sheet(one.sheet, *one.sheet_mm), robot, placement, one.pen.lift_mm):
+            return one
+    return wanted
 
 
 def with_mode(settings: DrawingSettings, mode: str, parameters: Mapping[str, Any] | None = None) -> DrawingSettings:

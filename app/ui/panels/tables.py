@@ -13,7 +13,10 @@ STYLE = (
 
 def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """Cells are HTML, the head is text. The last cell of a short row takes the rest of its width."""
-    titles = "".join(f'<th style="{_side(k)}">{html.escape(name)}</th>' for k, name in enumerate(head))
+    titles = "".join(
+        f'<th style="text-align:{"left" if k == 0 else "right"}">{html.escape(name)}</th>'
+        for k, name in enumerate(head)
+    )
     return f'<table style="{STYLE}"><tr>{titles}</tr>{"".join(_row(row, len(head)) for row in rows)}</table>'
 
 
@@ -26,4 +29,4 @@ def _row(cells: Sequence[str], width: int) -> str:
 
 
 def _side(column: int) -> str:
-    return "text-align:left" if column == 0 else "text-align:right"
+    return "text-align:left" if column == 0 else "text-align:right;white-space:nowrap;padding-left:6px"

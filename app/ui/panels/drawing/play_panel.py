@@ -49,6 +49,7 @@ class PlayPanel:
         player.moved.connect(lambda _: self._pace.request())
         player.state_changed.connect(self._show_state)
         desk.planned.connect(self._receive)
+        desk.refused.connect(lambda _: self._refresh())
         self._listen()
 
     def close(self) -> None:

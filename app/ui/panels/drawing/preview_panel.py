@@ -50,7 +50,8 @@ class PreviewPanel:
     def _tell(self, refusal: Refusal | TooDense | None) -> None:
         self._problem.visible = refusal is not None
         if refusal is not None:
-            self._problem.content = problem(refusal.reason) + small("The last drawing stays.")
+            kept = small("The last drawing stays.") if self._desk.plan is not None else ""
+            self._problem.content = problem(refusal.reason) + kept
 
 
 def _figure(caption: str, share: int, kind: str, data: bytes, height: str) -> str:

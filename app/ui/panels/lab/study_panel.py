@@ -106,10 +106,7 @@ class FrequencyPlots:
             "Open loop: phase, and the margin above -180°",
             200,
         )
-        points = [
-            replace(curve, marks_only=True, size=size)
-            for curve, size in ((IDEAL, 13), (BASELINE, 10), (NOW, 7))
-        ]
+        points = [replace(curve, marks_only=True, size=size) for curve, size in ((IDEAL, 13), (BASELINE, 10), (NOW, 7))]
         plane = Axes("Real part (1/s)", "Imaginary part (1/s)")
         self._poles = Plot(gui, plane, points, "Poles of the closed loop: stable left of 0", 220)
         self._table = gui.add_html("")
