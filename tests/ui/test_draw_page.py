@@ -347,6 +347,8 @@ def test_comparisons(desk: Page):
     for title in ("Par4 delta", "Linear delta", "5R pick-and-place"):
         expect(page.get_by_role("cell", name=re.compile(title)).first).to_be_attached(timeout=60_000)
     page.get_by_text("Against a serial arm (an exercise)", exact=True).click()
+    field(page, "Path").nth(-1).scroll_into_view_if_needed()
+    page.wait_for_timeout(600)  # the folder has unfolded
     choose(page, "Path", "Zigzag rows")
     press(page, "Compare with the arm")
     expect(page.get_by_text("the delta is", exact=False).first).to_be_visible(timeout=20_000)

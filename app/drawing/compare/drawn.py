@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from app.drawing.rasterise import render_ink, similarity
+from app.drawing import likeness as pixelwise
+from app.drawing.rasterise import render_ink
 from app.drawing.toolpath import Placement, Toolpath
 from app.robots.robot import Array
 
@@ -48,10 +49,10 @@ def deviation_um(toolpath: Toolpath, placement: Placement, strokes: Sequence[Arr
 
 
 def likeness(grey: NDArray[np.uint8], drawn: Sequence[Array], mm_per_px: float, pen_mm: float) -> float:
-    """`similarity` (0..1) of a picture (h, w) in the middle of the sheet with the ink of sheet strokes (n, 2) mm."""
+    """Likeness (0..1) of a picture (h, w) in the middle of the sheet with the ink of sheet strokes (n, 2) mm."""
     middle = np.array([grey.shape[1] - 1, grey.shape[0] - 1]) / 2
     pixels = [stroke / mm_per_px * (1.0, -1.0) + middle for stroke in drawn]
-    return similarity(grey, pixels, mm_per_px, pen_mm)
+    return pixelwise.likeness(grey, pixels, mm_per_px, pen_mm)
 
 
 def likeness_to_strokes(strokes: Sequence[Array], drawn: Sequence[Array], pen_mm: float) -> float:

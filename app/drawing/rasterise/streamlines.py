@@ -5,6 +5,7 @@ from __future__ import annotations
 import heapq
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import cv2
 import numpy as np
@@ -36,6 +37,12 @@ CELL = 0.5
 LOOP = 8
 """Steps after which a line that comes to a cell again has gone round."""
 
+MARGIN = math.ceil(FARTHEST / CELL) + 2
+"""Cells around the picture."""
+
+AT_ONCE = 500
+"""Places for a line that are tried before those that have become crowded are sorted out."""
+
 SEEN = 1.0
 """Blur before the picture is read, in pen widths."""
 
@@ -58,22 +65,24 @@ def _diagonals(drive: Field, inked: Mask, pen: float, *, longest: float) -> list
 class _Lines:
     """Lines laid so far, and the room that they take.
 
-    Everything counts in CELLs, so that a step of a line is a few look-ups in flat memory.
+    Everything counts in CELLs, so that a step of a line is a few look-ups in flat memory. Around the picture there is
+    MARGIN of white, so that nothing has to ask where it ends.
     """
 
     def __init__(self, drive: Field, inked: Mask, pen: float, tone: Field, smooth: float, longest: float) -> None:
         height, width = drive.shape
         self.cell = CELL * pen
-        self.columns, self.rows = size = max(1, math.ceil(width / self.cell)), max(1, math.ceil(height / self.cell))
+        columns, rows = size = max(1, math.ceil(width / self.cell)), max(1, math.ceil(height / self.cell))
         pens = max(1, math.ceil(width / pen)), max(1, math.ceil(height / pen))
         small = np.asarray(cv2.resize(tone, pens, interpolation=cv2.INTER_AREA), np.float32)
-        self.cos, self.sin = (axis.reshape(-1).data for axis in flow_of(small, smooth, size))
-        pick = _nearest(self.rows, self.cell, height)[:, None], _nearest(self.columns, self.cell, width)
-        self.apart = 1 / (CELL * np.maximum(drive[pick] / CLOSEST, 1 / FARTHEST))
+        self.way_x, self.way_y = (_framed(STEP / CELL * axis, 0.0).reshape(-1).data for axis in flow_of(small, smooth, size))
+        pick = _nearest(rows, self.cell, height)[:, None], _nearest(columns, self.cell, width)
+        self.apart = _framed(1 / (CELL * np.maximum(drive[pick] / CLOSEST, 1 / FARTHEST)), FARTHEST / CELL)
         # 1 where a line would come too near, and where another one should not begin; white paper is both at once
-        self.taken = np.where(inked[pick], 0, 1).astype(np.uint8)
+        self.taken = _framed(np.where(inked[pick], 0, 1).astype(np.uint8), 1)
         self.crowded = self.taken.copy()
         self.taken_at = self.taken.reshape(-1).data
+        self.columns = self.taken.shape[1]
         self.most = max(2, round(longest / STEP))
 
     def all(self) -> list[Stroke]:
@@ -90,19 +99,20 @@ class _Lines:
                     self.crowded[int(y), int(x)] = 1
                     continue
                 self._take(line)
-                strokes.append(line * self.cell - 0.5)
+                strokes.append((line - MARGIN) * self.cell - 0.5)
                 for beside in self._beside(line):
                     heapq.heappush(waiting, beside)
         return strokes
 
     def _everywhere(self) -> Iterator[Seed]:
         """Every second free cell of every second row, the darkest first."""
-        apart = self.apart[::2, ::2]
-        order = np.argsort(apart, axis=None, kind="stable")
-        rows, columns = np.unravel_index(order[self.crowded[::2, ::2].ravel()[order] == 0], apart.shape)
-        for row, column in zip((2 * rows).tolist(), (2 * columns).tolist(), strict=True):
-            if not self.crowded[row, column]:
-                yield 0.0, column + 0.5, row + 0.5
+        rows, columns = (2 * at for at in np.nonzero(self.crowded[::2, ::2] == 0))
+        darkest_first = np.argsort(self.apart[rows, columns], kind="stable")
+        for some in np.array_split(darkest_first, max(1, len(darkest_first) // AT_ONCE)):
+            row, column = rows[some], columns[some]
+            free = self.crowded[row, column] == 0
+            for y, x in zip(row[free].tolist(), column[free].tolist(), strict=True):
+                yield 0.0, x + 0.5, y + 0.5
 
     def _line(self, x: float, y: float) -> NDArray[np.float64]:
         visited: dict[int, int] = {}
@@ -112,24 +122,18 @@ class _Lines:
 
     def _half(self, x: float, y: float, sign: int, visited: dict[int, int], most: int) -> list[tuple[float, float]]:
         """From a start along the flow, until there is no room."""
-        cos, sin, taken, columns, rows = self.cos, self.sin, self.taken_at, self.columns, self.rows
-        step = STEP / CELL
+        way_x, way_y, taken, columns = self.way_x, self.way_y, self.taken_at, self.columns
         at = int(y) * columns + int(x)
-        dx, dy = sign * cos[at], sign * sin[at]
+        dx, dy = sign * way_x[at], sign * way_y[at]
         points = []
-        for count in range(most):
+        for count in range(0, sign * most, sign):
             # the direction half a step ahead keeps circles from widening
-            ahead_x, ahead_y = x + dx * step / 2, y + dy * step / 2
-            if not (0 <= ahead_x < columns and 0 <= ahead_y < rows):
-                break
-            at = int(ahead_y) * columns + int(ahead_x)
-            c, s = cos[at], sin[at]
+            at = int(y + dy / 2) * columns + int(x + dx / 2)
+            c, s = way_x[at], way_y[at]
             dx, dy = (c, s) if c * dx + s * dy >= 0 else (-c, -s)
-            x, y = x + dx * step, y + dy * step
-            if not (0 <= x < columns and 0 <= y < rows):
-                break
+            x, y = x + dx, y + dy
             at = int(y) * columns + int(x)
-            if taken[at] or abs(visited.setdefault(at, sign * count) - sign * count) > LOOP:
+            if taken[at] or abs(visited.setdefault(at, count) - count) > LOOP:
                 break
             points.append((x, y))
         return points
@@ -149,11 +153,14 @@ class _Lines:
         column, row = points.astype(int).T
         away = (self.apart[row, column] + 0.8)[:, None] * along[:, ::-1] * (-1, 1) * (CELL / STEP)
         x, y = np.concatenate([points + away, points - away]).T
-        inside = (x >= 0) & (x < self.columns) & (y >= 0) & (y < self.rows)
-        x, y = x[inside], y[inside]
-        free = self.crowded[y.astype(int), x.astype(int)] == 0
-        x, y = x[free], y[free]
-        return list(zip(self.apart[y.astype(int), x.astype(int)].tolist(), x.tolist(), y.tolist(), strict=True))
+        column, row = x.astype(int), y.astype(int)
+        free = self.crowded[row, column] == 0
+        apart = self.apart[row[free], column[free]]
+        return list(zip(apart.tolist(), x[free].tolist(), y[free].tolist(), strict=True))
+
+
+def _framed(field: NDArray[Any], white: float) -> NDArray[Any]:
+    return np.pad(field, MARGIN, constant_values=white)
 
 
 def _nearest(count: int, cell: float, side: int) -> NDArray[np.int64]:

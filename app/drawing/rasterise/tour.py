@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,54 +16,65 @@ Points = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
+class _Near(NamedTuple):
+    """What never changes: (n, k) neighbours of each point, the nearest first, and how far they are."""
+
+    point: Ints
+    apart: Points
+
+
 def shortened(points: Points) -> Points:
     """The (n, 2) points, given in a sensible order, as an open way that hardly crosses itself."""
     count = len(points)
     if count < 5:
         return points
-    near = np.asarray(KDTree(points).query(points, min(NEIGHBOURS + 1, count))[1], np.int64)[:, 1:]
+    apart, near = KDTree(points).query(points, min(NEIGHBOURS + 1, count))
     order = np.arange(count)
-    idle = 0
+    touched = active = order
     for _ in range(MAX_ROUNDS):
-        idle = 0 if _improve(points, order, near) else idle + 1
-        if idle == 2:
-            break
+        before, touched = touched, _improve(points, order, _Near(near[:, 1:], apart[:, 1:]), active)
         # moves look only forwards along the way: next time the other way round
         order = order[::-1].copy()
+        active = np.union1d(before, touched)
+        if not len(active):
+            break
     around = points[order]
     longest = int(np.argmax(np.linalg.norm(np.roll(around, -1, axis=0) - around, axis=1)))
     return np.roll(around, -longest - 1, axis=0)
 
 
-def _improve(points: Points, order: Ints, near: Ints) -> int:
-    """Reverse stretches of `order`, a closed way, in place; how many."""
-    place = np.argsort(order)
-    after = order[(place + 1) % len(order)]
-    here = np.arange(len(order))
-    # instead of a -> after(a) and b -> after(b): a -> b and after(a) -> after(b)
-    gain = _far(points, here, after)[:, None] + _far(points, near, after[near])
-    gain -= _far(points, here[:, None], near) + _far(points, after[:, None], after[near])
-    best = np.argmax(gain, axis=1)
-    a = np.flatnonzero(gain[here, best] > LEAST_GAIN)
-    a = a[np.argsort(-gain[a, best[a]], kind="stable")]
-    return sum(
-        _reverse(points, order, place, *pair) for pair in zip(a.tolist(), near[a, best[a]].tolist(), strict=True)
-    )
+def _improve(points: Points, order: Ints, near: _Near, active: Ints) -> Ints:
+    """Reverse stretches of `order`, a closed way, in place, where active points gain; the points with new hops."""
+    after, place = np.empty_like(order), np.empty_like(order)
+    after[order] = np.roll(order, -1)
+    place[order] = np.arange(len(order))
+    # instead of a -> after(a) and b -> after(b): a -> b and after(a) -> after(b), of which one is a shorter hop than
+    # before; this is for the first, the second is a first the other way round
+    row, column = np.nonzero(near.apart[active] < _far(points, active, after[active])[:, None])
+    a = active[row]
+    b = near.point[a, column]
+    gain = _far(points, a, after[a]) + _far(points, b, after[b])
+    gain -= near.apart[a, column] + _far(points, after[a], after[b])
+    best = np.argsort(-gain, kind="stable")[: np.count_nonzero(gain > LEAST_GAIN)]
+    moves = np.column_stack([a, after[a], b, after[b]])[best]
+    for move in moves.tolist():
+        _exchange(order, place, *move)
+    return moves.ravel()
 
 
-def _reverse(points: Points, order: Ints, place: Ints, a: int, b: int) -> bool:
-    """Exchange the edges that now follow a and b, if that still gains."""
-    i, j = sorted((int(place[a]), int(place[b])))
-    if i == j:
-        return False
-    start, after_start, end, after_end = points[order[[i, i + 1, j, (j + 1) % len(order)]]].tolist()
-    old = math.dist(start, after_start) + math.dist(end, after_end)
-    if old - math.dist(start, end) - math.dist(after_start, after_end) <= LEAST_GAIN:
-        return False
-    order[i + 1 : j + 1] = order[i + 1 : j + 1][::-1].copy()
-    place[order[i + 1 : j + 1]] = np.arange(i + 1, j + 1)
-    return True
+def _exchange(order: Ints, place: Ints, a: int, after_a: int, b: int, after_b: int) -> None:
+    """Give up the two hops for a -> b and after_a -> after_b, unless an earlier move has touched them."""
+    count = len(order)
+    i, j = int(place[a]), int(place[b])
+    if order[(i + 1) % count] != after_a or order[(j + 1) % count] != after_b:
+        return
+    if i > j:
+        i, j = j, i
+    # either of the two stretches may be reversed
+    stretch = np.arange(i + 1, j + 1) if 2 * (j - i) <= count else np.arange(j + 1, i + 1 + count) % count
+    order[stretch] = order[stretch[::-1]]
+    place[order[stretch]] = stretch
 
 
-def _far(points: Points, a: Ints, b: Ints) -> NDArray[np.float64]:
-    return np.hypot(points[a, 0] - points[b, 0], points[a, 1] - points[b, 1])
+def _far(points: Points, a: Ints, b: Ints) -> Points:
+    return np.hypot(*(points[a] - points[b]).T)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -81,6 +82,9 @@ class DrawingDesk:
         """Whether the drawing may be exchanged for a quicker one: not while the robot draws it."""
         self._improvement: Improvement | None = None
         self._rounds = 0
+        self._up_to_date = False
+        """Whether `sketch` shows the present picture in the present look."""
+        self._robot_name = session.robot_name
         session.robot_changed.connect(self._follow_robot)
 
     @property
@@ -115,6 +119,8 @@ class DrawingDesk:
 
     def take_strokes(self, strokes: list[NDArray[np.float64]]) -> None:
         """Drawn by hand, sheet mm."""
+        if self.source is not None:
+            self._reader.cancel()  # the hand is newer than what is being read
         if strokes:
             self._receive_source("hand", strokes_source("By hand", strokes, in_place=True))
         elif self.source_name == "hand":
@@ -149,10 +155,15 @@ class DrawingDesk:
     def move_sheet(self, placement: Placement | None, *, finished: bool = True) -> None:
         """Lay the sheet elsewhere, None: where the robot has room around it. The drawing is planned when finished."""
         self._keep(replace(self.settings, placement=placement))
+        sketch = self.sketch
         if finished:
             self._replace_sheet()
-        elif self.sketch is not None:
-            self._quick.request(self.moved.emit, jobs.outside_of, self.sketch.strokes, self.setup)
+        elif sketch is not None and self._up_to_date:
+            self._quick.request(partial(self._warn, sketch), jobs.outside_of, sketch.strokes, self.setup)
+
+    def _warn(self, sketch: Sketch, outside: list[NDArray[np.bool_]]) -> None:
+        if sketch is self.sketch:
+            self.moved.emit(outside)
 
     def _change(self, settings: DrawingSettings) -> None:
         self._keep(settings)
@@ -172,9 +183,15 @@ class DrawingDesk:
             self.settings_changed.emit(self.settings)
             return
         self.source, self.source_name = result, name
-        self._change(turned_to_fit(self.settings, self._session.robot, lies_flat(result)))
+        self._change(self._turned(self.settings, lies_flat(result)))
+
+    def _turned(self, settings: DrawingSettings, landscape: bool | None) -> DrawingSettings:
+        """With the sheet in the robot's reach; but nobody's paper is turned while it is being drawn on."""
+        in_place = self.source is not None and self.source.in_place
+        return settings if in_place else turned_to_fit(settings, self._session.robot, landscape)
 
     def _ask(self) -> None:
+        self._up_to_date = False
         if self.source is None:
             return
         takes_long = self.settings.look.mode in SLOW_MODES
@@ -184,16 +201,22 @@ class DrawingDesk:
 
     def _replace_sheet(self) -> None:
         """The strokes stay; unless others are on their way, which then come for this sheet."""
-        if self.sketch is None or self.sketch.look != self.settings.look:
-            self._ask()
-        else:
+        if self.sketch is not None and self._up_to_date:
             self._quick.request(self._receive, jobs.placed, self.sketch, self.setup)
+        else:
+            self._ask()
 
     def _receive(self, result: Sketch | Refusal | TooDense) -> None:
-        if not isinstance(result, Sketch):
-            self._refuse(result)
+        if isinstance(result, Sketch):
+            self._up_to_date = True
+            self._refuse(None)
+            self._show(result)
             return
-        self._refuse(None)
+        self._refuse(result)
+        if self.sketch is not None and self.sketch.setup != self.setup:
+            self._quick.request(self._show, jobs.placed, self.sketch, self.setup)
+
+    def _show(self, result: Sketch) -> None:
         self.sketch, self.plan = result, None
         self._improvement, self._rounds = Improvement(result.strokes), 0
         self.sketched.emit(result)
@@ -231,12 +254,19 @@ class DrawingDesk:
 
     def _follow_robot(self, robot: Robot) -> None:
         """Another robot has its own place for the sheet, and its own lift."""
-        if self.sketch is None:
-            self.settings = replace(self.settings, placement=None)
-            return
-        same = robot.name == self.sketch.setup.robot
+        self._drop_plan()
+        same, self._robot_name = robot.name == self._robot_name, robot.name
         pen = self.settings.pen if same else replace(self.settings.pen, lift_mm=default_pen(robot).lift_mm)
         placement = self.settings.placement if same else None
         settings = replace(self.settings, placement=placement, pen=pen)
-        self._keep(settings if same else turned_to_fit(settings, robot, None))
+        if not same:
+            settings = self._turned(settings, None)
+            self._up_to_date = self._up_to_date and settings.look == self.settings.look
+        self._keep(settings)
         self._replace_sheet()
+
+    def _drop_plan(self) -> None:
+        self._planner.cancel()
+        if self.plan is not None:
+            self.plan = None
+            self.planned.emit(None)

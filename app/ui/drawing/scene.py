@@ -35,7 +35,7 @@ class DrawingScene:
         self._gizmo = gizmo
         self._desk = desk
         self._player = player
-        self._placing = False
+        self._shown = self._placing = False
         self._looked_at = ""
         self._outside: list[NDArray[np.bool_]] = []
         self._sheet = SheetView(client, session)
@@ -51,7 +51,10 @@ class DrawingScene:
 
     def visible(self, on: bool) -> None:
         """Show or hide the sheet."""
+        self._shown = on
         self._sheet.visible(on)
+        self._show_handles()
+        self._look_once()
 
     def look(self) -> None:
         """Turn the camera to the sheet."""
@@ -68,14 +71,21 @@ class DrawingScene:
 
     def _show_handles(self) -> None:
         """While the robot draws, its handles would hide what it draws."""
-        self._gizmo.visible(not self._placing and self._player.state not in ("drawing", "pausing"))
+        placing = self._placing and self._shown
+        self._gizmo.visible(not placing and self._player.state not in ("drawing", "pausing"))
 
     def _show(self, sketch: Sketch) -> None:
-        self._sheet.place(sketch.setup.placement, sketch.look.sheet_mm)
-        if sketch.setup.robot != self._looked_at:
+        # where it was laid last: a sheet in hand has moved on since this drawing was asked for
+        self._sheet.place(self._desk.placement, sketch.look.sheet_mm)
+        self._look_once()
+        self._show_plan(sketch, sketch.outside)
+
+    def _look_once(self) -> None:
+        """At the sheet of another robot, as soon as it is seen."""
+        sketch = self._desk.sketch
+        if self._shown and sketch is not None and sketch.setup.robot != self._looked_at:
             self._looked_at = sketch.setup.robot
             self.look()
-        self._show_plan(sketch, sketch.outside)
 
     def _show_plan(self, sketch: Sketch, outside: list[NDArray[np.bool_]]) -> None:
         self._outside = outside

@@ -20,6 +20,7 @@ ABOUT = (
     "The paper says that its delta draws faster than <i>the serial robot</i>, 20 % with lines and 18 % with tones, but "
     "not which robot. So find out yourself: how long must the arm's links be, and where must it stand, to win?"
 )
+NO_WAY = "A single dot takes neither robot any time: choose a path with lines."
 
 
 class ArmPanel:
@@ -66,7 +67,7 @@ class ArmPanel:
 
     def _receive(self, result: ArmComparison | Refusal) -> None:
         if isinstance(result, Refusal) or math.isnan(result.saving_percent):
-            self._answer.content = problem(result.reason)
+            self._answer.content = problem(result.reason or NO_WAY)
         else:
             self._answer.content = comparison(result)
 

@@ -74,7 +74,8 @@ class Knob:
         if self._slider is not None:
             self._slider.visible = not automatic
             if not automatic:
-                show_value(self._slider, whole(min(max(value, self.parameter.low), self.parameter.high)))
+                # not `whole`: an input that holds an integer takes no fractions any more
+                show_value(self._slider, float(min(max(value, self.parameter.low), self.parameter.high)))
         if self._choice is not None and not automatic:
             show_value(self._choice, f"{value:g}")
 

@@ -44,12 +44,17 @@ class PreviewPanel:
         self._tabulate()
 
     def _tabulate(self) -> None:
-        if self._desk.sketch is not None:
-            self._table.content = numbers_table(self._desk.sketch, self._desk.plan)
+        desk = self._desk
+        if desk.sketch is not None:
+            waiting = desk.plan is None and desk.refusal is None
+            self._table.content = numbers_table(desk.sketch, desk.plan, waiting)
 
     def _tell(self, refusal: Refusal | TooDense | None) -> None:
         self._problem.visible = refusal is not None
+        self._tabulate()
         if refusal is not None:
+            if self._desk.sketch is None:
+                self._pictures.content = ""
             kept = small("The last drawing stays.") if self._desk.plan is not None else ""
             self._problem.content = problem(refusal.reason) + kept
 
@@ -64,19 +69,20 @@ def _figure(caption: str, share: int, kind: str, data: bytes, height: str) -> st
     )
 
 
-def numbers_table(sketch: Sketch, plan: Plan | None) -> str:
-    """HTML: what the drawing costs, and what comes of it."""
+def numbers_table(sketch: Sketch, plan: Plan | None, waiting: bool) -> str:
+    """HTML: what the drawing costs, and what comes of it; `waiting` for the plan."""
     strokes = sketch.strokes
     ink_mm = sum(float(np.linalg.norm(np.diff(stroke, axis=0), axis=1).sum()) for stroke in strokes)
     up_mm = pen_up_mm(strokes, tuple(strokes[0][0].tolist()))
     lifts = len(strokes) - 1 if sketch.setup.pen.rises else 0
+    unplanned = "out of reach" if not sketch.is_reachable else "…" if waiting else "none"
     rows = [
         ("Mode", html.escape(mode_title(sketch.mode))),
         ("Strokes", f"{len(strokes)}"),
         ("Ink", _length(ink_mm)),
         ("Pen up" if lifts or sketch.setup.pen.laser else "Between strokes", _length(up_mm)),
         ("Lifts", f"{lifts}"),
-        ("Drawing time", duration(plan.time_s) if plan else "…" if sketch.is_reachable else "out of reach"),
+        ("Drawing time", duration(plan.time_s) if plan else unplanned),
     ]
     if plan is not None and plan.stray_ink_mm:
         rows.append(("Stray ink", _length(plan.stray_ink_mm)))

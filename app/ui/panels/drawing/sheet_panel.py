@@ -101,7 +101,7 @@ class SheetPanel:
         show_value(self._size, settings.sheet)
         show_value(self._landscape, settings.landscape)
         show_value(self._margin, settings.look.margin_mm)
-        show_value(self._scale, round(100.0 * settings.look.scale))
+        show_value(self._scale, float(round(100.0 * settings.look.scale)))
         fields = (self._x, self._y, self._height, self._turn)
         for field, value in zip(fields, _numbers(self._desk.placement), strict=True):
             show_value(field, value)

@@ -7,6 +7,7 @@ import html
 import viser
 
 from app.drawing.samples import SAMPLES
+from app.drawing.source import Source
 from app.ui import theme
 from app.ui.drawing.desk import DrawingDesk
 from app.ui.drawing.jobs import TooDense
@@ -35,6 +36,8 @@ class SourcePanel:
         self._choice = gui.add_dropdown("Picture", self._options(), initial_value=self._shown())
         self._text = gui.add_text("Text", FIRST_TEXT, multiline=True, visible=False)
         self._sheet_mm = (0.0, 0.0)
+        self._source: Source | None = None
+        """What was drawn when something else was chosen."""
         self._pad_folder = gui.add_folder(None, visible=False)
         with self._pad_folder:
             self._pad = Pad(client, desk.take_strokes)
@@ -52,7 +55,7 @@ class SourcePanel:
 
         @self._upload.on_upload
         async def _(event: viser.GuiEvent[viser.GuiUploadButtonHandle]) -> None:
-            desk.take_file(event.target.value.name, event.target.value.content)
+            desk.take_file(own_title(event.target.value.name), event.target.value.content)
 
         @self._choice.on_update
         async def _(event: viser.GuiEvent[viser.GuiDropdownHandle[str]]) -> None:
@@ -67,6 +70,7 @@ class SourcePanel:
             desk.draw_coarser()
 
     def _choose(self, title: str) -> None:
+        self._source = self._desk.source
         if title == TEXT:
             self._desk.take_text(self._text.value)
         elif title == HAND:
@@ -92,8 +96,8 @@ class SourcePanel:
         if settings.sheet_mm != self._sheet_mm:
             self._sheet_mm = settings.sheet_mm
             self._pad.show_sheet(settings.sheet_mm)
-        if self._choice.value == HAND and self._desk.source_name != "hand" and not self._pad.strokes:
-            return  # somebody is about to draw
+        if self._choice.value in KINDS.values() and self._desk.source is self._source:
+            return  # somebody is about to write or draw
         show_options(self._choice, self._options(), self._shown())
         self._show_inputs(self._choice.value)
 
@@ -101,7 +105,13 @@ class SourcePanel:
         self._problem.visible = refusal is not None
         if refusal is not None:
             self._problem.content = problem(refusal.reason)
-        self._coarser.visible = isinstance(refusal, TooDense)
+        self._coarser.visible = isinstance(refusal, TooDense) and bool(refusal.coarser)
+
+
+def own_title(name: str) -> str:
+    """What a file is called in the list, where no other entry is called so."""
+    taken = {*NAMES, *NAMES.values(), *KINDS, *KINDS.values()}
+    return f"{name} (file)" if name in taken else name
 
 
 def problem(sentence: str) -> str:

@@ -37,7 +37,7 @@ class SweepPanel:
         self._series = series
         self._points: list[SweepPoint] = []
         self._names: dict[str, str] = {"Scale": "scale"}
-        self._mode = ""
+        self._mode = self._swept = ""
         gui = client.gui
         with gui.add_folder("Quality against speed"):
             gui.add_html(small(ABOUT))
@@ -74,7 +74,8 @@ class SweepPanel:
         sketch, source = self._desk.sketch, self._desk.source
         if sketch is None or source is None:
             return
-        name = self._names[self._choice.value]
+        self._swept = self._choice.value
+        name = self._names[self._swept]
         values = sweep_values(sketch.mode, name)
         self._points = []
         tasks = [(sweep_point, (source, sketch.chosen_look, sketch.setup, name, value)) for value in values]
@@ -87,7 +88,7 @@ class SweepPanel:
             time_s = [one.time_s for one in good]
             likeness = [100.0 * one.similarity for one in good]
             self._plot.show(time_s, likeness, likeness)
-        self._table.content = sweep_table(self._choice.value, self._points)
+        self._table.content = sweep_table(self._swept, self._points)
         self._save.visible = True
 
 
