@@ -21,14 +21,19 @@ settings.load_profile("unhurried")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what needs Chromium and run it last: from then on Playwright has a loop on the main thread."""
+    """Mark what needs Chromium; one worker at a time draws pages, a file's other tests stay together.
+
+    A file's browser tests come last: from then on Playwright has a loop on the main thread, until the file ends.
+    """
     for item in items:
-        if "browser" in getattr(item, "fixturenames", ()):
+        in_browser = "browser" in getattr(item, "fixturenames", ())
+        if in_browser:
             item.add_marker("browser")
+        item.add_marker(pytest.mark.xdist_group("browser" if in_browser else item.path.name))
     items.sort(key=lambda item: item.get_closest_marker("browser") is not None)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     """Chromium; a machine without it skips the test, in CI that is a failure."""
     if not CHROMIUM.exists():

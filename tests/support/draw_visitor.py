@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
 from typing import Any
@@ -29,11 +28,17 @@ class Visitor:
 
     async def set(self, label: str, value: Any) -> None:
         """As a page does, which shows at once what was entered."""
-        self.client.inputs[self.client.uuid_of(label)]["value"] = value
-        await self.client.set_value(label, value)
+        made = self._input(label)
+        made["value"] = value
+        await self.client.send("GuiUpdateMessage", uuid=made["uuid"], updates={"value": value})
 
     async def press(self, label: str) -> None:
         await self.client.set_value(label, True)
+
+    def _input(self, label: str) -> Message:
+        """A folder may be called like what is in it."""
+        all_made = self.client.inputs.values()
+        return next(made for made in all_made if "value" in made and made["props"].get("label") == label)
 
     def props(self, label: str) -> dict[str, Any]:
         return self.client.inputs[self.client.uuid_of(label)]["props"]
@@ -58,13 +63,13 @@ class Visitor:
 
     @property
     def reasons(self) -> list[str]:
-        """Why the present picture is not drawn: said beside the picture and beside the drawing."""
-        return [sentence for sentence, times in Counter(PROBLEM.findall(self.said)).items() if times > 1]
+        """Why something cannot be, as it is said."""
+        return PROBLEM.findall(self.said)
 
     @property
     def settled(self) -> bool:
         """Whether nobody has to wait for the drawing any more."""
-        return self.cell("Drawing time") != "…" and (self.can_draw or bool(self.reasons))
+        return self.can_draw or ("The way is being planned" not in self.said and bool(self.reasons))
 
     async def saved_svg(self) -> bytes:
         """The drawing as a file."""
@@ -81,9 +86,10 @@ class Visitor:
 
     async def upload(self, name: str, data: bytes) -> None:
         common = {"source_component_uuid": self.client.uuid_of("Upload a picture"), "transfer_uuid": name}
-        size = {"part_count": 1, "size_bytes": len(data)}
+        size = {"part_count": int(len(data) > 0), "size_bytes": len(data)}
         await self.client.send("FileTransferStartUpload", filename=name, mime_type="image/png", **size, **common)
-        await self.client.send("FileTransferPart", part_index=0, content=data, **common)
+        if data:
+            await self.client.send("FileTransferPart", part_index=0, content=data, **common)
 
     def _see(self, message: Message, _: float) -> None:
         match message:

@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.drawing.modes import DRAWING_MODES
+from app.drawing.modes import DRAWING_MODES, PRESETS
 from app.drawing.samples import sample_bytes
 from app.drawing.svg_import import read_svg
 from tests.support.draw_visitor import Visitor, on_page, visitor
 from tests.support.server import RunningServer, running_deltalab
 from tests.support.wire import run_async
 
-GIZMO, HANDLE, SHEET = "/robot/gizmo", "/robot/sheet_handle", "/robot/sheet"
+GIZMO, TOOL, HANDLE, SHEET = "/robot/gizmo", "/robot/tool", "/robot/sheet_handle", "/robot/sheet"
 
 
 @pytest.fixture(scope="module")
@@ -134,13 +134,13 @@ TEXTS = ("Hola", "", "<b>&amp;", "漢字")
 
 async def disturb(one: Visitor, rng: random.Random) -> None:
     """Do one thing somewhere on the page, quickly."""
-    client, kind = one.client, rng.choice((*PUSHED, "Pad", "Text", "Drag", "Upload"))
+    client, kind = one.client, rng.choice((*PUSHED, *PUSHED, "Pad", "Text", "Drag", "Upload"))
     if kind == "Pad":
         await client.set_value("Strokes drawn", POINTS.format(rng.randrange(10**6), rng.randrange(-999, 999)))
     elif kind == "Text":
         await one.set("Text", rng.choice(TEXTS))
     elif kind == "Upload":
-        await one.upload(f"<i>{rng.randrange(10**9)}</i>", rng.choice((sample_bytes("logo"), b"", b"<svg/>", b"?")))
+        await one.upload(f"<i>{rng.randrange(10**9)}", rng.choice((sample_bytes("logo"), b"", b"<svg/>", b"?")))
     elif kind == "Drag":
         await client.start_drag(HANDLE)
         await client.drag(HANDLE, (rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), 0.0))
@@ -156,7 +156,10 @@ async def push(one: Visitor, kind: str, rng: random.Random) -> None:
     props = made["props"]
     value: Any = True
     if kind in ("Slider", "Number"):
-        low, high = (-400.0 if props["min"] is None else props["min"]), (400.0 if props["max"] is None else props["max"])
+        low, high = (
+            (-400.0 if props["min"] is None else props["min"]),
+            (400.0 if props["max"] is None else props["max"]),
+        )
         value = min(low + props["step"] * rng.randrange(1 + int((high - low) / props["step"])), high)
     elif kind == "Dropdown":
         value = rng.choice(props["options"])
@@ -195,11 +198,25 @@ def millimetres(length: str) -> float:
 
 
 async def draws(one: Visitor) -> None:
-    """Where all is as it was at first but for picture and mode, the robot begins to draw."""
-    await one.press("Reset geometry")
-    await one.press("Put the sheet back")
-    await one.set("Play speed", "20×")
-    await one.until(lambda: one.settled, "plan or reason", 90.0)
+    """What every robot can draw, it begins to draw."""
+    for button in ("Reset geometry", "Put the sheet back"):
+        await one.press(button)
+    easy = {
+        "Picture": "Logo",
+        "Size": "A6",
+        "Margin (mm)": 10.0,
+        "Laser": False,
+        "Lift the pen": True,
+        "Lift (mm)": 1.0,
+    }
+    for label, value in easy.items():
+        await one.set(label, value)
+    await one.set("Start from", PRESETS["line_art"].title)
+    await one.until(lambda: one.cell("Mode") == "Centre lines" and one.can_draw, "an easy drawing", 60.0)
+    await one.press("Stop and go home")
+    start = one.client.positions[TOOL]
+    await one.client.send("GuiUpdateMessage", uuid=one.go, updates={"value": True})
+    await one.until(lambda: one.client.positions[TOOL] != start, "a robot that moves")
 
 
 def test_two_students_click_about_and_all_is_in_order_afterwards(server: RunningServer):
@@ -208,5 +225,6 @@ def test_two_students_click_about_and_all_is_in_order_afterwards(server: Running
             await asyncio.gather(storm(one, 1), storm(two, 2))
             for each in (one, two):
                 await comes_to_rest(each)
+                await draws(each)
 
     run_async(scene())

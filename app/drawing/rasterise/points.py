@@ -116,7 +116,8 @@ def _owners(points: Array, grid: _Grid) -> NDArray[np.int64]:
     row, column = grid.cells_at(points)
     empty = np.ones(grid.mass.shape, np.uint8)
     empty[row, column] = 0
-    labels = cv2.distanceTransformWithLabels(empty, cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL)[1]
+    found = cv2.distanceTransformWithLabels(empty, cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL)
+    labels = np.asarray(found[1], np.int32)
     owner = np.zeros(labels.max() + 1, np.int64)
     owner[labels[row, column][::-1]] = np.arange(len(points))[::-1]
     return owner[labels.ravel()]

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from app.drawing.rasterise.mode import PENS, Parameter, RasterMode
+from app.drawing.rasterise.simpler import simpler
 from app.drawing.rasterise.squiggle import POINTS_A_WAVE, SEEN, swing_of
 from app.drawing.rasterise.tone import drive_for, inked_where, sample, sample_mask, softened, wanted_cover
 from app.drawing.rasterise.types import Field, Mask, Stroke
@@ -33,7 +34,7 @@ def lay(drive: Field, inked: Mask, pen: float, *, pitch: float, wave: float) -> 
     wavy = np.minimum(radius + swing * np.sin(2 * math.pi * np.arange(len(radius)) / POINTS_A_WAVE), reach)
     path = np.column_stack([middle_x + wavy * np.cos(turned), middle_y + wavy * np.sin(turned)])
     down = np.flatnonzero(sample_mask(inked, calm_x, calm_y))
-    return [path[down[0] : down[-1] + 1]] if len(down) > 1 else []
+    return simpler([path[down[0] : down[-1] + 1]], pen) if len(down) > 1 else []
 
 
 SPIRAL = RasterMode(

@@ -6,6 +6,7 @@ import numpy as np
 
 from app.drawing.rasterise.mode import PENS, Parameter, RasterMode
 from app.drawing.rasterise.runs import places, runs
+from app.drawing.rasterise.simpler import simpler
 from app.drawing.rasterise.tone import drive_for, inked_where, sample, sample_mask, softened, wanted_cover
 from app.drawing.rasterise.types import Field, Mask, Stroke
 
@@ -46,8 +47,8 @@ def lay(drive: Field, inked: Mask, pen: float, *, pitch: float, wave: float) -> 
     strokes = []
     for first, last in zip(*runs(down.ravel(), row, gap=narrow, shortest=narrow + 1), strict=True):
         stroke = points[first : last + 1]
-        strokes.append((stroke if row[first] % 2 == 0 else stroke[::-1]).copy())
-    return strokes
+        strokes.append(stroke if row[first] % 2 == 0 else stroke[::-1])
+    return simpler(strokes, pen)
 
 
 def swing_of(drive: Field, pitch: float) -> Field:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import heapq
 import math
 from collections.abc import Iterator
-from typing import Any
 
 import cv2
 import numpy as np
@@ -13,14 +12,15 @@ from numpy.typing import NDArray
 
 from app.drawing.rasterise.flow import flow_of
 from app.drawing.rasterise.mode import PENS, Parameter, RasterMode
+from app.drawing.rasterise.simpler import simpler
 from app.drawing.rasterise.tone import drive_for, inked_where, softened, wanted_cover
 from app.drawing.rasterise.types import Field, Mask, Stroke
 
 STEP = 1.0
 """Pen widths."""
 
-CLOSEST, FARTHEST = 1.0, 16.0
-"""Distance of lines in pen widths, at full and at no drive."""
+CLOSEST, FARTHEST = 0.85, 16.0
+"""Distance of lines in pen widths, at full and at no drive; neighbours begin a little farther away."""
 
 NEAREST = 0.6
 """A line ends where it comes this near to another, relative to the wanted distance."""
@@ -36,6 +36,9 @@ CELL = 0.5
 
 LOOP = 8
 """Steps after which a line that comes to a cell again has gone round."""
+
+PIECE = 8
+"""Steps of a line that take room of one width."""
 
 MARGIN = math.ceil(FARTHEST / CELL) + 2
 """Cells around the picture."""
@@ -75,11 +78,12 @@ class _Lines:
         columns, rows = size = max(1, math.ceil(width / self.cell)), max(1, math.ceil(height / self.cell))
         pens = max(1, math.ceil(width / pen)), max(1, math.ceil(height / pen))
         small = np.asarray(cv2.resize(tone, pens, interpolation=cv2.INTER_AREA), np.float32)
-        self.way_x, self.way_y = (_framed(STEP / CELL * axis, 0.0).reshape(-1).data for axis in flow_of(small, smooth, size))
+        flow = flow_of(small, smooth, size)
+        self.way_x, self.way_y = (np.pad(STEP / CELL * axis, MARGIN, mode="edge").reshape(-1).data for axis in flow)
         pick = _nearest(rows, self.cell, height)[:, None], _nearest(columns, self.cell, width)
-        self.apart = _framed(1 / (CELL * np.maximum(drive[pick] / CLOSEST, 1 / FARTHEST)), FARTHEST / CELL)
+        self.apart = np.pad(1 / (CELL * np.maximum(drive[pick] / CLOSEST, 1 / FARTHEST)), MARGIN, mode="edge")
         # 1 where a line would come too near, and where another one should not begin; white paper is both at once
-        self.taken = _framed(np.where(inked[pick], 0, 1).astype(np.uint8), 1)
+        self.taken = np.pad(np.where(inked[pick], 0, 1).astype(np.uint8), MARGIN, constant_values=1)
         self.crowded = self.taken.copy()
         self.taken_at = self.taken.reshape(-1).data
         self.columns = self.taken.shape[1]
@@ -102,7 +106,7 @@ class _Lines:
                 strokes.append((line - MARGIN) * self.cell - 0.5)
                 for beside in self._beside(line):
                     heapq.heappush(waiting, beside)
-        return strokes
+        return simpler(strokes, self.cell / CELL)
 
     def _everywhere(self) -> Iterator[Seed]:
         """Every second free cell of every second row, the darkest first."""
@@ -139,17 +143,21 @@ class _Lines:
         return points
 
     def _take(self, line: NDArray[np.float64]) -> None:
-        column, row = line.astype(int).T
-        apart = self.apart[row, column]
-        centres = np.rint((line - 0.5) * 16).astype(int).tolist()
-        for room, share in ((self.crowded, 1.0), (self.taken, NEAREST)):
-            radii = np.rint((share * apart - 0.5) * 16).astype(int).tolist()
-            for centre, radius in zip(centres, radii, strict=True):
-                cv2.circle(room, centre, radius, 1, -1, cv2.LINE_8, 4)
+        """Piece by piece, each as wide as its middle wants; what one is rounded by, the next makes up for."""
+        firsts = np.arange(0, len(line) - 1, PIECE)
+        column, row = line[np.minimum(firsts + PIECE // 2, len(line) - 1)].astype(int).T
+        wanted = 2 * np.outer((1.0, NEAREST), self.apart[row, column]) - 1
+        widths = np.diff(np.rint(np.cumsum(wanted, axis=1)), axis=1, prepend=0).astype(int).tolist()
+        points = np.rint((line - 0.5) * 16).astype(np.int32)
+        pieces = [points[first : first + PIECE + 1] for first in firsts.tolist()]
+        for room, own in zip((self.crowded, self.taken), widths, strict=True):
+            for piece, width in zip(pieces, own, strict=True):
+                cv2.polylines(room, [piece], False, 1, width, cv2.LINE_8, 4)
 
     def _beside(self, line: NDArray[np.float64]) -> list[Seed]:
         """Free places on both sides, where neighbours could begin."""
-        points, along = line[:-1:SEED_EVERY], np.diff(line, axis=0)[::SEED_EVERY]
+        points = line[:-1:SEED_EVERY]
+        along = line[1::SEED_EVERY] - points
         column, row = points.astype(int).T
         away = (self.apart[row, column] + 0.8)[:, None] * along[:, ::-1] * (-1, 1) * (CELL / STEP)
         x, y = np.concatenate([points + away, points - away]).T
@@ -157,10 +165,6 @@ class _Lines:
         free = self.crowded[row, column] == 0
         apart = self.apart[row[free], column[free]]
         return list(zip(apart.tolist(), x[free].tolist(), y[free].tolist(), strict=True))
-
-
-def _framed(field: NDArray[Any], white: float) -> NDArray[Any]:
-    return np.pad(field, MARGIN, constant_values=white)
 
 
 def _nearest(count: int, cell: float, side: int) -> NDArray[np.int64]:

@@ -28,11 +28,11 @@ def shortened(points: Points) -> Points:
     count = len(points)
     if count < 5:
         return points
-    apart, near = KDTree(points).query(points, min(NEIGHBOURS + 1, count))
+    near = _near(points)
     order = np.arange(count)
     touched = active = order
     for _ in range(MAX_ROUNDS):
-        before, touched = touched, _improve(points, order, _Near(near[:, 1:], apart[:, 1:]), active)
+        before, touched = touched, _improve(points, order, near, active)
         # moves look only forwards along the way: next time the other way round
         order = order[::-1].copy()
         active = np.union1d(before, touched)
@@ -43,8 +43,13 @@ def shortened(points: Points) -> Points:
     return np.roll(around, -longest - 1, axis=0)
 
 
+def _near(points: Points) -> _Near:
+    apart, point = KDTree(points).query(points, min(NEIGHBOURS + 1, len(points)))
+    return _Near(np.asarray(point, np.int64)[:, 1:], np.asarray(apart)[:, 1:])
+
+
 def _improve(points: Points, order: Ints, near: _Near, active: Ints) -> Ints:
-    """Reverse stretches of `order`, a closed way, in place, where active points gain; the points with new hops."""
+    """Reverse stretches of `order`, a closed way, in place, where that gains at active points; all points concerned."""
     after, place = np.empty_like(order), np.empty_like(order)
     after[order] = np.roll(order, -1)
     place[order] = np.arange(len(order))

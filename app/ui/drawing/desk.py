@@ -78,6 +78,8 @@ class DrawingDesk:
         self.sketch: Sketch | None = None
         self.plan: Plan | None = None
         self.refusal: Refusal | TooDense | None = None
+        self.no_way: Refusal | None = None
+        """Why the robot cannot draw what is shown; `refusal` may be about something newer."""
         self.settled: Callable[[], bool] = lambda: True
         """Whether the drawing may be exchanged for a quicker one: not while the robot draws it."""
         self._improvement: Improvement | None = None
@@ -217,7 +219,7 @@ class DrawingDesk:
             self._quick.request(self._show, jobs.placed, self.sketch, self.setup)
 
     def _show(self, result: Sketch) -> None:
-        self.sketch, self.plan = result, None
+        self.sketch, self.plan, self.no_way = result, None, None
         self._improvement, self._rounds = Improvement(result.strokes), 0
         self.sketched.emit(result)
         self.planned.emit(None)
@@ -225,6 +227,7 @@ class DrawingDesk:
 
     def _receive_plan(self, result: Plan | Refusal) -> None:
         if isinstance(result, Refusal):
+            self.no_way = result
             self._refuse(result)
             return
         self.plan = result
@@ -267,6 +270,5 @@ class DrawingDesk:
 
     def _drop_plan(self) -> None:
         self._planner.cancel()
-        if self.plan is not None:
-            self.plan = None
-            self.planned.emit(None)
+        self.plan = self.no_way = None
+        self.planned.emit(None)

@@ -31,6 +31,13 @@ def test_a_flat_grey_gets_its_cover(mode, darkness):
     assert cover == pytest.approx(0.8 * (1 - grey[0, 0] / 255), abs=0.05)
 
 
+def test_streamlines_have_no_tones_that_jump():
+    darkness = np.linspace(0.44, 0.84, 6)
+    greys = [flat(each, 140) for each in darkness]
+    covers = [ink(draw(grey, "streamlines"), grey.shape, PEN_PX, fine=3)[30:-30, 30:-30].mean() for grey in greys]
+    np.testing.assert_allclose(covers, 0.8 * darkness, atol=0.03)
+
+
 @pytest.mark.parametrize("pen_mm", [0.2, 0.5, 1.0])
 @pytest.mark.parametrize("mode", ["squiggle", "hatch", "streamlines"])
 def test_the_cover_does_not_depend_on_the_pen(mode, pen_mm):

@@ -11,6 +11,7 @@ from scipy.spatial import KDTree
 from app.drawing.rasterise import rasterise
 from app.drawing.rasterise.points import hilbert, points_of
 from app.drawing.rasterise.tour import shortened
+from tests.drawing.rasterise.walk import walked
 from tests.support.paper import flat
 
 
@@ -47,7 +48,7 @@ def test_streamlines_go_round_a_ball():
 @pytest.mark.parametrize("darkness", [0.3, 0.6])
 def test_streamlines_keep_their_distance(darkness):
     """Where cover is c, parallel lines are a pen's width / c apart; none comes nearer than about 0.6 of that."""
-    strokes = rasterise(flat(darkness, 200), "streamlines", 0.25, pen_mm=0.5)
+    strokes = [walked(stroke) for stroke in rasterise(flat(darkness, 200), "streamlines", 0.25, pen_mm=0.5)]
     number = np.repeat(np.arange(len(strokes)), [len(stroke) for stroke in strokes])
     points = np.concatenate(strokes)
     trees = [KDTree(points[number != own]) for own in range(len(strokes))]
@@ -82,6 +83,13 @@ def test_points_are_as_dense_as_wanted_and_evenly_spread():
     assert np.quantile(nearest[points[:, 0] > 55], 0.05) > 0.65 / np.sqrt(0.2)
 
 
+def test_no_two_points_lie_together():
+    density = np.full((90, 130), 2.0, np.float32)
+    points = points_of(density, density > 0, 1.0, 50_000)
+    assert len(points) == pytest.approx(2 * 90 * 130, rel=0.01)
+    assert KDTree(points).query(points, 2)[0][:, 1].min() > 0.1
+
+
 def test_too_many_points_get_fewer_everywhere():
     density = np.tile(np.repeat([0.05, 0.2], 50).astype(np.float32), (100, 1))
     points = points_of(density, density > 0, 1.0, 500)
@@ -96,6 +104,12 @@ def test_the_short_way_visits_the_same_points_and_is_no_longer(seed, count):
     way = shortened(points)
     np.testing.assert_array_equal(np.sort(way.view("f8,f8"), axis=0), np.sort(points.view("f8,f8"), axis=0))
     assert length(way) <= length(np.vstack([points, points[:1]])) + 1e-9
+
+
+def test_points_on_the_same_spot_are_all_visited():
+    points = np.repeat(np.random.default_rng(4).random((30, 2)), 12, axis=0)
+    way = shortened(points)
+    np.testing.assert_array_equal(np.sort(way.view("f8,f8"), axis=0), np.sort(points.view("f8,f8"), axis=0))
 
 
 def test_the_short_way_is_short():

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from app.drawing.errors import DrawingError
 from app.drawing.rasterise import RASTER_MODES, rasterise
+from tests.drawing.rasterise.walk import walked
 from tests.support.paper import face, flat
 
 MODES = list(RASTER_MODES)
@@ -54,7 +55,7 @@ def test_the_pen_is_not_down_over_white(mode, first, last, angle):
         assert strokes == []
         return
     rows, columns = np.nonzero(inked)
-    for x, y in np.concatenate([*strokes, np.zeros((0, 2))]):
+    for x, y in np.concatenate([*map(walked, strokes), np.zeros((0, 2))]):
         # to the nearest pixel that is not white; corners of white are as round as the pen
         away = np.maximum(np.abs(columns - x), np.abs(rows - y)).min()
         assert away <= 0.5 + PEN_PX / 2

@@ -48,11 +48,17 @@ class ArmPanel:
 
             @element.on_update
             async def _(_: object) -> None:
-                if self._answer.content:
-                    self._ask()
+                self._ask_again()
 
         @self._go.on_click
         async def _(_: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
+            self._ask()
+
+        desk.sketched.connect(lambda _: self._ask_again())
+
+    def _ask_again(self) -> None:
+        """An answer is about the present drawing and robot."""
+        if self._answer.content:
             self._ask()
 
     def _ask(self) -> None:

@@ -9,6 +9,7 @@ from app.ui.drawing.jobs import Plan
 from app.ui.drawing.player import DrawingPlayer, State
 from app.ui.pacing import Paced
 from app.ui.panels.drawing.preview_panel import duration
+from app.ui.panels.drawing.source_panel import problem
 from app.ui.panels.text import small
 from app.ui.viser_adapter import show_value
 
@@ -92,8 +93,7 @@ class PlayPanel:
         self._bar.value = 100.0 * player.progress
         show_value(self._time, min(round(player.time_s, 1), self._time.max))
         if self._desk.plan is None or sketch is None:
-            refused = self._desk.refusal is not None
-            self._said.content = small("Not drawn: see above." if refused else "The way is being planned …")
+            self._said.content = self._reason()
             return
         _, _, done = player.drawn
         said = SAID.get(player.state, "")
@@ -103,3 +103,11 @@ class PlayPanel:
             said,
         ]
         self._said.content = small(", ".join(part for part in parts if part))
+
+    def _reason(self) -> str:
+        """HTML of why there is no way to draw along."""
+        desk = self._desk
+        if desk.no_way is not None and desk.no_way != desk.refusal:
+            return problem(desk.no_way.reason)  # above stands something newer
+        refused = desk.no_way is not None or (desk.sketch is None and desk.refusal is not None)
+        return small("Not drawn: see above." if refused else "The way is being planned …")

@@ -46,8 +46,7 @@ class PreviewPanel:
     def _tabulate(self) -> None:
         desk = self._desk
         if desk.sketch is not None:
-            waiting = desk.plan is None and desk.refusal is None
-            self._table.content = numbers_table(desk.sketch, desk.plan, waiting)
+            self._table.content = numbers_table(desk.sketch, desk.plan, waiting=desk.no_way is None)
 
     def _tell(self, refusal: Refusal | TooDense | None) -> None:
         self._problem.visible = refusal is not None
@@ -69,7 +68,7 @@ def _figure(caption: str, share: int, kind: str, data: bytes, height: str) -> st
     )
 
 
-def numbers_table(sketch: Sketch, plan: Plan | None, waiting: bool) -> str:
+def numbers_table(sketch: Sketch, plan: Plan | None, *, waiting: bool) -> str:
     """HTML: what the drawing costs, and what comes of it; `waiting` for the plan."""
     strokes = sketch.strokes
     ink_mm = sum(float(np.linalg.norm(np.diff(stroke, axis=0), axis=1).sum()) for stroke in strokes)
