@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import random
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 import pytest
@@ -15,6 +14,7 @@ from app.drawing.samples import sample_bytes
 from app.drawing.svg_import import read_svg
 from tests.support.draw_visitor import Visitor, on_page, visitor
 from tests.support.server import RunningServer, running_deltalab
+from tests.support.taps import MARK, tap
 from tests.support.wire import run_async
 
 GIZMO, TOOL, HANDLE, SHEET = "/robot/gizmo", "/robot/tool", "/robot/sheet_handle", "/robot/sheet"
@@ -121,61 +121,35 @@ def test_a_sheet_held_still_stays_when_a_better_order_is_found(server: RunningSe
     on_page(server, play)
 
 
-LEFT_ALONE = {"Control opened", "Draw opened", "Workspace", "Workspace angle (deg)", "Shadows", "Dark"}
-"""Other labs, and what only costs frames."""
+def test_why_the_robot_cannot_draw_stays_in_sight(server: RunningServer):
+    async def play(one: Visitor) -> None:
+        await one.set("Sheet x (mm)", 400.0)
+        await one.until(lambda: "is beyond the robot" in one.said, "refusal")
+        await one.upload("letter.png", b"Dear robot")
+        await one.until(lambda: "This is text" in one.said, "refusal of the file")
+        assert "is beyond the robot" in one.said and not one.can_draw
+
+    on_page(server, play)
+
+
+def test_the_answer_about_the_arm_follows_the_drawing(server: RunningServer):
+    async def play(one: Visitor) -> None:
+        await one.press("Compare with the arm")
+        await one.until(lambda: "Assumed:" in one.said, "answer")
+        await one.set("Sheet x (mm)", 400.0)
+        await one.until(lambda: "Assumed:" not in one.said and "Drawing delta: Out of reach" in one.said, "another one")
+
+    on_page(server, play)
+
 
 TAPS = 75
 """Of each of two students."""
-
-PUSHED = ("Slider", "Number", "Dropdown", "Checkbox", "Button", "ButtonGroup")
-POINTS = "{} last 100,200 -150,{} 60,-90"
-TEXTS = ("Hola", "", "<b>&amp;", "漢字")
-
-
-async def disturb(one: Visitor, rng: random.Random) -> None:
-    """Do one thing somewhere on the page, quickly."""
-    client, kind = one.client, rng.choice((*PUSHED, *PUSHED, "Pad", "Text", "Drag", "Upload"))
-    if kind == "Pad":
-        await client.set_value("Strokes drawn", POINTS.format(rng.randrange(10**6), rng.randrange(-999, 999)))
-    elif kind == "Text":
-        await one.set("Text", rng.choice(TEXTS))
-    elif kind == "Upload":
-        await one.upload(f"<i>{rng.randrange(10**9)}", rng.choice((sample_bytes("logo"), b"", b"<svg/>", b"?")))
-    elif kind == "Drag":
-        await client.start_drag(HANDLE)
-        await client.drag(HANDLE, (rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), 0.0))
-        await client.end_drag(HANDLE)
-    else:
-        await push(one, kind, rng)
-
-
-async def push(one: Visitor, kind: str, rng: random.Random) -> None:
-    """Give some input of this kind some value that it may have."""
-    found = [made for made in one.client.inputs.values() if made["type"] == f"Gui{kind}Message"]
-    made = rng.choice([made for made in found if made["props"]["label"] not in LEFT_ALONE])
-    props = made["props"]
-    value: Any = True
-    if kind in ("Slider", "Number"):
-        low, high = (
-            (-400.0 if props["min"] is None else props["min"]),
-            (400.0 if props["max"] is None else props["max"]),
-        )
-        value = min(low + props["step"] * rng.randrange(1 + int((high - low) / props["step"])), high)
-    elif kind == "Dropdown":
-        value = rng.choice(props["options"])
-    elif kind == "ButtonGroup":
-        value = rng.choice(props["options"])
-    elif kind == "Checkbox":
-        value = not made["value"]
-    if kind != "Button":
-        made["value"] = value
-    await one.client.send("GuiUpdateMessage", uuid=made["uuid"], updates={"value": value})
 
 
 async def storm(one: Visitor, seed: int) -> None:
     rng = random.Random(seed)
     for _ in range(TAPS):
-        await disturb(one, rng)
+        await tap(one, rng)
         await asyncio.sleep(rng.choice((0.0, 0.01, 0.1)))
 
 
@@ -189,6 +163,7 @@ async def comes_to_rest(one: Visitor) -> None:
         strokes = read_svg(await one.saved_svg())  # until no better order comes between
     assert int(one.cell("Strokes")) == len(strokes)
     ink_mm = sum(float(np.linalg.norm(np.diff(stroke, axis=0), axis=1).sum()) for stroke in strokes)
+    assert MARK not in one.said, "nothing that was typed or uploaded is markup"
     assert millimetres(one.cell("Ink")) == pytest.approx(ink_mm, rel=0.01, abs=1.0)
 
 

@@ -40,6 +40,8 @@ class _Partial(NamedTuple):
 
 def descend(ends: Ends, tour: Tour, go_on: Callable[[], bool] = lambda: True) -> None:
     """Exchange hops until no two or three among near ends are worth it, or until told not to go on."""
+    if not go_on():
+        return
     size = len(ends.points)
     near = ends.near(max(NEAR[0], min(NEAR[1], CANDIDATES // size)))
     active = np.arange(size - 1)

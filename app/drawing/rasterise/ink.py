@@ -47,7 +47,8 @@ def ink_cover(strokes: Sequence[Stroke], shape: tuple[int, int], pen: float, fin
     fine = max(1, min(math.ceil(fine_pen / pen) | 1, (most - 1) | 1))
     off_line = np.full((height * fine, width * fine), 255, np.uint8)
     # cv2 counts 1/16 pixels here, and cuts off what lies beyond the picture
-    points = [np.rint(((stroke + 0.5) * fine - 0.5) * 16).astype(np.int32) for stroke in strokes]
+    points = np.rint(((np.concatenate(strokes) + 0.5) * fine - 0.5) * 16).astype(np.int32)
+    points = np.split(points, np.cumsum([len(stroke) for stroke in strokes[:-1]]))
     cv2.polylines(off_line, points, False, 0, 1, cv2.LINE_8, 4)
     distance = cv2.distanceTransform(off_line, cv2.DIST_L2, cv2.DIST_MASK_5)
     ink = np.clip(pen * fine / 2 + 0.5 - STAIRCASE - distance, 0.0, 1.0)

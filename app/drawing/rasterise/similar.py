@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from app.drawing.rasterise.ink import ink_cover
+from app.drawing.rasterise.ink import FINE_PEN, ink_cover
 from app.drawing.rasterise.tone import pen_in_pixels, tone_of, wanted_cover
 from app.drawing.rasterise.types import Grey, Stroke
 
@@ -18,9 +18,14 @@ BLUR_MM = 1.5
 SSIM_K1, SSIM_K2 = 0.01, 0.03
 
 
-def similarity(grey: Grey, strokes: Sequence[Stroke], mm_per_px: float, pen_mm: float) -> float:
-    """Structural similarity (0..1) of the blurred ink with the blurred wanted cover; PIXEL strokes."""
-    wanted, inked = _from_away(grey, strokes, mm_per_px, pen_mm)
+def similarity(
+    grey: Grey, strokes: Sequence[Stroke], mm_per_px: float, pen_mm: float, fine_pen: float = FINE_PEN
+) -> float:
+    """Structural similarity (0..1) of the blurred ink with the blurred wanted cover; PIXEL strokes.
+
+    `fine_pen`: see `ink_cover`.
+    """
+    wanted, inked = _from_away(grey, strokes, mm_per_px, pen_mm, fine_pen)
     return float(np.clip(_ssim(wanted, inked).mean(), 0.0, 1.0))
 
 
@@ -33,13 +38,13 @@ def affine_error(grey: Grey, strokes: Sequence[Stroke], mm_per_px: float, pen_mm
 
 
 def _from_away(
-    grey: Grey, strokes: Sequence[Stroke], mm_per_px: float, pen_mm: float
+    grey: Grey, strokes: Sequence[Stroke], mm_per_px: float, pen_mm: float, fine_pen: float = FINE_PEN
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Wanted and inked cover (h, w), both blurred."""
     pen = pen_in_pixels(pen_mm, mm_per_px)
     sigma = BLUR_MM / mm_per_px
     wanted = wanted_cover(tone_of(grey))
-    inked = ink_cover(strokes, wanted.shape, pen)
+    inked = ink_cover(strokes, wanted.shape, pen, fine_pen)
     return _blurred(wanted.astype(np.float64), sigma), _blurred(inked.astype(np.float64), sigma)
 
 

@@ -6,6 +6,7 @@ better order while the student looks at the drawing. What cannot be drawn leaves
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
@@ -35,7 +36,10 @@ from app.ui.session import Session, Signal
 from app.ui.state import DrawingMemory
 
 FIRST_SAMPLE = "cat"
-IMPROVE_S = 0.5
+IMPROVE_AFTER_S = 1.5
+"""A drawing that has been left alone for so long is improved; one that is still being changed is not worth it."""
+
+IMPROVE_S = 0.4
 """At a time, so that others get their turn."""
 
 SLOW_MODES = frozenset({"one_line", "stipple", "streamlines"})
@@ -44,7 +48,7 @@ SLOW_MODES = frozenset({"one_line", "stipple", "streamlines"})
 FLAT = 1.1
 """A picture whose sides differ by less is as good on either sheet."""
 
-ROUNDS = 4
+ROUNDS = 3
 """Of improvement of one drawing."""
 
 
@@ -84,6 +88,7 @@ class DrawingDesk:
         """Whether the drawing may be exchanged for a quicker one: not while the robot draws it."""
         self._improvement: Improvement | None = None
         self._rounds = 0
+        self._patience: asyncio.TimerHandle | None = None
         self._up_to_date = False
         """Whether `sketch` shows the present picture in the present look."""
         self._robot_name = session.robot_name
@@ -96,7 +101,7 @@ class DrawingDesk:
     @property
     def improving(self) -> bool:
         """Whether a better order is still being looked for."""
-        return self._planner.busy
+        return self._planner.busy or self._patience is not None
 
     @property
     def setup(self) -> Setup:
@@ -219,6 +224,7 @@ class DrawingDesk:
             self._quick.request(self._show, jobs.placed, self.sketch, self.setup)
 
     def _show(self, result: Sketch) -> None:
+        self.leave_alone()
         self.sketch, self.plan, self.no_way = result, None, None
         self._improvement, self._rounds = Improvement(result.strokes), 0
         self.sketched.emit(result)
@@ -232,9 +238,16 @@ class DrawingDesk:
             return
         self.plan = result
         self.planned.emit(result)
-        self._look_for_better()
+        self._patience = asyncio.get_running_loop().call_later(IMPROVE_AFTER_S, self._look_for_better)
+
+    def leave_alone(self) -> None:
+        """Look for no better order of this drawing."""
+        if self._patience is not None:
+            self._patience.cancel()
+            self._patience = None
 
     def _look_for_better(self) -> None:
+        self._patience = None
         if self.sketch is None or self.plan is None or self._improvement is None:
             return
         if self._rounds < ROUNDS and jobs.can_improve(self.sketch) and not self._improvement.finished:
@@ -269,6 +282,7 @@ class DrawingDesk:
         self._replace_sheet()
 
     def _drop_plan(self) -> None:
+        self.leave_alone()
         self._planner.cancel()
         self.plan = self.no_way = None
         self.planned.emit(None)

@@ -80,6 +80,7 @@ class DrawingRoom:
     def close(self) -> None:
         self._closed = True
         self._playback.pause()
+        self.desk.leave_alone()
         self._scene.close()
         for play in self._plays:
             play.close()
