@@ -69,6 +69,8 @@ def _foreign_names(node: ast.AST) -> list[tuple[int, str]]:
     match node:
         case ast.Attribute(value=ast.Name(id="self" | "cls")) | ast.Attribute(attr="_replace" | "_asdict"):
             return []  # one's own, and what every named tuple offers
+        case ast.Attribute(value=ast.Name(id="os"), attr="_exit"):
+            return []  # documented, whatever its name looks like
         case ast.Attribute(attr=name):
             return [(node.lineno, name)]
         case ast.ImportFrom(module=str(module)) if module.split(".")[0] == "viser":

@@ -47,8 +47,8 @@ def coarser_settings(count: int, mode: str, settings: Settings) -> dict[str, flo
 
 def in_words(count: int) -> str:
     """Two digits are enough: 41 000."""
-    digits = max(len(str(count)) - 2, 0)
-    return f"{round(count, -digits):,}".replace(",", " ")
+    step = 10 ** max(len(str(count)) - 2, 0)
+    return f"{-(-count // step) * step:,}".replace(",", " ")  # rounded up: never less than it is
 
 
 def _smoother(count: int, settings: Settings) -> dict[str, float]:

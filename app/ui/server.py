@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import gc
 import multiprocessing
+import os
 import signal
+import sys
 import threading
 import webbrowser
 
@@ -58,7 +60,7 @@ class Lab:
         """Stop at once; what the workers compute is dropped."""
         stop_server(self.server)
         for process in multiprocessing.active_children():
-            process.terminate()
+            process.kill()
         self._pools.shutdown()
 
     def warm_up(self) -> None:
@@ -103,3 +105,6 @@ def serve(options: ServeOptions) -> None:
             stop.wait()
     finally:
         lab.close()
+    # A pool may still be writing to a killed worker, and Python would wait for that for ever.
+    sys.stdout.flush()
+    os._exit(0)

@@ -70,9 +70,12 @@ class ViewOptions:
 class DrawingMemory(NamedTuple):
     """What was drawn, and how."""
 
+    robot: str
     settings: DrawingSettings
     source: Source | None
     source_name: str
+    text: str
+    """As it was typed."""
 
 
 @dataclass(frozen=True)

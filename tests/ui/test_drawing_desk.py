@@ -256,3 +256,21 @@ def test_a_series_runs_in_order_and_can_be_cancelled():
             assert got == [1, 2, 4, 8] and not series.busy
 
     with_desk(scene)
+
+
+def test_a_visit_later_with_another_robot_lays_the_sheet_anew():
+    kept: list[Memory] = []
+
+    async def first(desk: DrawingDesk, session: Session) -> None:
+        await opened(desk, "logo")
+        desk.move_sheet(Placement(-0.36, (0.03, 0.0)))
+        desk.take_text("Hola")
+        await until(lambda: desk.source_name == "text", "text")
+        kept.append(session.memory)
+
+    async def second(desk: DrawingDesk, _: Session) -> None:
+        assert desk.settings.placement is None and desk.settings.pen.lift_mm == 2.0
+        assert desk.text == "Hola"
+
+    with_desk(first)
+    with_desk(second, replace(kept[0], robot="fivebar", pose=None))

@@ -36,6 +36,7 @@ from app.ui.session import Session, Signal
 from app.ui.state import DrawingMemory
 
 FIRST_SAMPLE = "cat"
+FIRST_TEXT = "Delta Lab"
 IMPROVE_AFTER_S = 1.5
 """A drawing that has been left alone for so long is improved; one that is still being changed is not worth it."""
 
@@ -59,6 +60,11 @@ def lies_flat(source: Source) -> bool | None:
     return source.grey.shape[1] > source.grey.shape[0]
 
 
+def moved_to(settings: DrawingSettings, robot: Robot) -> DrawingSettings:
+    """Before another robot: the sheet lies where that has room, and the pen is lifted as suits it."""
+    return replace(settings, placement=None, pen=replace(settings.pen, lift_mm=default_pen(robot).lift_mm))
+
+
 class DrawingDesk:
     """The state behind every panel of the tab Draw."""
 
@@ -76,9 +82,12 @@ class DrawingDesk:
         self._quick, self._thorough, self._reader, self._planner = quick, thorough, reader, planner
         memory = session.drawing
         self.settings = memory.settings if memory else default_settings(session.robot)
+        if memory and memory.robot != session.robot_name:
+            self.settings = moved_to(self.settings, session.robot)
         self.source: Source | None = memory.source if memory else None
         self.source_name = memory.source_name if memory else FIRST_SAMPLE
         """Key of the sample, or what else is drawn."""
+        self.text = memory.text if memory else FIRST_TEXT
         self.sketch: Sketch | None = None
         self.plan: Plan | None = None
         self.refusal: Refusal | TooDense | None = None
@@ -122,6 +131,7 @@ class DrawingDesk:
         self._read(name, jobs.read, name, content)
 
     def take_text(self, text: str) -> None:
+        self.text = text
         self._read("text", jobs.read_text, text)
 
     def take_strokes(self, strokes: list[NDArray[np.float64]]) -> None:
@@ -178,7 +188,9 @@ class DrawingDesk:
 
     def _keep(self, settings: DrawingSettings) -> None:
         self.settings = settings
-        self._session.drawing = DrawingMemory(settings, self.source, self.source_name)
+        self._session.drawing = DrawingMemory(
+            self._session.robot_name, settings, self.source, self.source_name, self.text
+        )
         self.settings_changed.emit(settings)
 
     def _read(self, name: str, job: Callable[..., Source | Refusal], *arguments: object) -> None:
@@ -272,11 +284,9 @@ class DrawingDesk:
         """Another robot has its own place for the sheet, and its own lift."""
         self._drop_plan()
         same, self._robot_name = robot.name == self._robot_name, robot.name
-        pen = self.settings.pen if same else replace(self.settings.pen, lift_mm=default_pen(robot).lift_mm)
-        placement = self.settings.placement if same else None
-        settings = replace(self.settings, placement=placement, pen=pen)
+        settings = self.settings
         if not same:
-            settings = self._turned(settings, None)
+            settings = self._turned(moved_to(settings, robot), None)
             self._up_to_date = self._up_to_date and settings.look == self.settings.look
         self._keep(settings)
         self._replace_sheet()

@@ -21,7 +21,6 @@ TEXT, HAND = "A text", "Draw by hand"
 KINDS = {"text": TEXT, "hand": HAND}
 FILES = ".jpg,.jpeg,.png,.webp,.bmp,.gif,.tif,.tiff,.svg,.txt,image/*"
 NAMES = {sample.title: name for name, sample in SAMPLES.items()}
-FIRST_TEXT = "Delta Lab"
 
 
 class SourcePanel:
@@ -34,7 +33,7 @@ class SourcePanel:
             "Upload a picture", icon=viser.Icon.UPLOAD, mime_type=FILES, hint="JPG, PNG, SVG and other common files"
         )
         self._choice = gui.add_dropdown("Picture", self._options(), initial_value=self._shown())
-        self._text = gui.add_text("Text", FIRST_TEXT, multiline=True, visible=False)
+        self._text = gui.add_text("Text", desk.text, multiline=True, visible=False)
         self._sheet_mm = (0.0, 0.0)
         self._source: Source | None = None
         """What was drawn when something else was chosen."""
