@@ -20,6 +20,7 @@ settings.register_profile("unhurried", deadline=None, derandomize=os.environ.get
 settings.load_profile("unhurried")
 
 
+@pytest.hookimpl(tryfirst=True)  # the workers read the groups in the same hook
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark what needs Chromium; one worker at a time draws pages, a file's other tests stay together.
 
