@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import functools
 import os
 from collections.abc import Iterator
 from contextlib import ExitStack
+from typing import Any
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as `app.cli` does, before anything loads NumPy
 
 import pytest
 from hypothesis import settings
 from playwright.sync_api import Browser, Page, sync_playwright
+from xdist.scheduler import LoadFileScheduling
 
 from tests.support.browser import CHROMIUM, DESKTOP, PHONE, PageFactory, Screen, launch, new_page
+from tests.support.imports import ROOT
 from tests.support.server import RunningServer, ServerFactory, running_deltalab
 
 # Speed lives in the benchmarks. CI tries the same examples every time; new ones are found at the desk.
@@ -20,17 +24,29 @@ settings.register_profile("unhurried", deadline=None, derandomize=os.environ.get
 settings.load_profile("unhurried")
 
 
-@pytest.hookimpl(tryfirst=True)  # the workers read the groups in the same hook
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what needs Chromium; one worker at a time draws pages, a file's other tests stay together.
+class ByFile(LoadFileScheduling):
+    """A file's tests stay together, and one worker draws all pages: two would take each other's time."""
 
-    A file's browser tests come last: from then on Playwright has a loop on the main thread, until the file ends.
-    """
+    def _split_scope(self, nodeid: str) -> str:
+        path = nodeid.partition("::")[0]
+        return "browser" if draws_pages(path) else path
+
+
+@functools.cache
+def draws_pages(path: str) -> bool:
+    """Whether a test file, relative to the project, works with Chromium."""
+    return "tests.support.browser" in (ROOT / path).read_text()
+
+
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> ByFile:
+    return ByFile(config, log)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what needs Chromium; in a file it comes last: from then on Playwright has a loop on the main thread."""
     for item in items:
-        in_browser = "browser" in getattr(item, "fixturenames", ())
-        if in_browser:
+        if "browser" in getattr(item, "fixturenames", ()):
             item.add_marker("browser")
-        item.add_marker(pytest.mark.xdist_group("browser" if in_browser else item.path.name))
     items.sort(key=lambda item: item.get_closest_marker("browser") is not None)
 
 
