@@ -49,6 +49,12 @@ def on_sheet(pixels: Sequence[Array], shape: tuple[int, ...], mm_per_px: float) 
     return [mm_per_px * (np.asarray(stroke, dtype=float) - middle) * np.array([1.0, -1.0]) for stroke in pixels]
 
 
+def in_pixels(strokes_mm: Sequence[Array], shape: tuple[int, ...], mm_per_px: float) -> list[Array]:
+    """Sheet strokes in the pixels of a picture (h, w) in the middle of the sheet: the inverse of `on_sheet`."""
+    middle = np.array([(shape[1] - 1) / 2, (shape[0] - 1) / 2])
+    return [stroke / mm_per_px * (1.0, -1.0) + middle for stroke in strokes_mm]
+
+
 def fitted(strokes: Sequence[Array], room: Size) -> list[Array]:
     """Strokes of any size, y up, in sheet millimetres: as large as the room allows, in the middle of the sheet."""
     return fit_to_sheet(strokes, Sheet("chosen", *room), 0.0)

@@ -10,15 +10,12 @@ from numpy.typing import NDArray
 
 from app.drawing.compose import Look, OnStage, compose
 from app.drawing.errors import DrawingError
-from app.drawing.fitting import on_sheet
 from app.drawing.modes import DRAWING_MODES
-from app.drawing.order import pen_up_mm
+from app.drawing.order import between_mm, ink_mm
 from app.drawing.settings import checked_settings, is_number
 from app.drawing.source import read_source
 from app.drawing.toolpath import PenSettings, Placement, Toolpath, default_pen, default_placement, plan_toolpath
 from app.robots import ROBOTS, GeometryError, Robot, make_robot
-
-__all__ = ["MODES", "STAGES", "Drawing", "draw_image", "on_sheet"]
 
 Array = NDArray[np.float64]
 
@@ -52,7 +49,7 @@ class Drawing:
     @property
     def ink_mm(self) -> float:
         """Length of all strokes."""
-        return sum(float(np.linalg.norm(np.diff(stroke, axis=0), axis=1).sum()) for stroke in self.strokes)
+        return ink_mm(self.strokes)
 
     @property
     def pen_up_mm(self) -> float:
@@ -61,7 +58,7 @@ class Drawing:
         It is measured from the first stroke's beginning on: the toolpath begins above that point, and the robot's way
         there depends on where it happens to be.
         """
-        return pen_up_mm(self.strokes, tuple(self.strokes[0][0].tolist()))
+        return between_mm(self.strokes)
 
     @property
     def lifts(self) -> int:

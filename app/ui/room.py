@@ -10,6 +10,7 @@ import viser
 from app.ui.bench import Bench
 from app.ui.compute import Pools, Worker
 from app.ui.drawing.door import DrawingDoor
+from app.ui.drawing.surroundings import Surroundings
 from app.ui.ghosts import Ghosts
 from app.ui.gizmo import Gizmo
 from app.ui.lab.room import ControlRoom
@@ -89,7 +90,9 @@ class Room:
             ViewPanel(gui, session, stage, overlay)
         bench = Bench(client)
         lab = ControlRoom(client, session, control_tab, bench, self._quick_worker(), self._worker, self._tell)
-        drawing = DrawingDoor(client, session, gizmo, stage, draw_tab, bench, self._quick_worker, self._worker)
+        drawing = DrawingDoor(
+            Surroundings(client, session, gizmo, stage, draw_tab, bench, self._quick_worker, self._worker)
+        )
         self._closers += [overlay.close, ghosts.close, robot_panel.close, lab.close, drawing.close]
 
     def _worker(self, failed: Callable[[], None] | None = None) -> Worker:

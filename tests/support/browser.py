@@ -156,6 +156,37 @@ def drag_gizmo(
     _drag(page, [(start[0] + stride[0] * k, start[1] + stride[1] * k) for k in range(steps + 1)], touch)
 
 
+def wait_still(page: Page, gizmo: str) -> None:
+    """Wait until nothing is on its way and the camera rests: a drag aims at where the gizmo is on the screen."""
+    for _ in range(40):
+        wait_ready(page, [gizmo])
+        before = project(page, gizmo)
+        page.wait_for_timeout(500)
+        if math.dist(before, project(page, gizmo)) < 0.5:
+            return
+    raise AssertionError("the picture never came to rest")
+
+
+def pull_gizmo(
+    page: Page,
+    name: str,
+    moved: Callable[[], bool],
+    axis: Sequence[float] = (0.0, 0.0, 1.0),
+    *,
+    pixels: float = 60.0,
+    touch: bool = False,
+) -> None:
+    """Drag an arrow until something has moved. On a machine that draws few frames a first grip can miss."""
+    for _ in range(3):
+        wait_still(page, name)
+        drag_gizmo(page, name, axis=axis, pixels=pixels, touch=touch, steps=16)
+        for _ in range(20):
+            if moved():
+                return
+            page.wait_for_timeout(250)
+    raise AssertionError(f"nothing followed {name}")
+
+
 def turn_gizmo(page: Page, name: str, degrees: float, *, touch: bool = False, steps: int = 12) -> None:
     """Drag the ring about z; it is a quarter of a circle from x to y.
 

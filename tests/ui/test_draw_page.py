@@ -18,7 +18,7 @@ from app.drawing.exports import EXPORTS, read_points_file
 from app.drawing.samples import sample_bytes
 from app.drawing.svg_import import read_svg
 from app.robots import ROBOTS
-from tests.support.browser import DESKTOP, PHONE, drag_gizmo, new_page, node_pose, open_page, screenshot, wait_until
+from tests.support.browser import DESKTOP, PHONE, new_page, node_pose, open_page, pull_gizmo, screenshot, wait_until
 from tests.support.plots import chart
 from tests.support.server import RunningServer, running_deltalab
 from tests.support.widgets import button, choose, field, open_tab, press, set_slider, settle, toggle, type_into, upload
@@ -258,10 +258,9 @@ def test_a_sheet_out_of_reach_is_shown_and_refused(desk: Page):
 def test_the_sheet_is_moved_by_its_handle(desk: Page):
     page = desk
     toggle(page, "Move the sheet")
-    page.wait_for_timeout(500)
     before = node_pose(page, SHEET)
-    drag_gizmo(page, "/robot/sheet_handle", (1.0, 0.0, 0.0), pixels=50)
-    wait_until(page, lambda: field(page, "Sheet x (mm)").input_value() not in ("", "0"), "a new place in the numbers")
+    shown = field(page, "Sheet x (mm)")
+    pull_gizmo(page, "/robot/sheet_handle", lambda: shown.input_value() not in ("", "0"), (1.0, 0.0, 0.0), pixels=50)
     after = node_pose(page, SHEET)
     assert before is not None and after is not None
     assert after.position[0] > before.position[0] + 0.005

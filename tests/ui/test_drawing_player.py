@@ -84,7 +84,7 @@ def test_a_pause_comes_where_the_pen_is_lifted(five_lines: Track) -> None:
         assert table.player.time_s == pytest.approx(pause_after(five_lines, middle))
         assert table.player.drawn == (-1, 0.0, 2), "the stroke is finished, the next not begun"
         assert table.height_over_paper() == pytest.approx(0.004, abs=1e-4)
-        table.player.resume()
+        table.player.play()
         assert table.states[-3:] == ["pausing", "paused", "drawing"]
         await table.until("done")
 
@@ -110,7 +110,7 @@ def test_a_pause_can_be_taken_back(five_lines: Track) -> None:
         table = Table(five_lines)
         table.player.play()
         table.player.pause()
-        table.player.resume()
+        table.player.play()
         assert table.player.state == "drawing"
         await table.until("done")
         assert table.player.time_s == five_lines.duration_s
@@ -149,7 +149,7 @@ def test_stopping_goes_home_and_the_drawing_can_be_resumed(five_lines: Track) ->
         assert table.session.stance.pose == pytest.approx(tuple(ROBOT.home))
         await asyncio.sleep(0.12)
         assert table.player.time_s == stopped
-        table.player.resume()
+        table.player.play()
         await table.until("done")
 
     run(scene())
@@ -178,7 +178,7 @@ def test_another_robot_empties_it(five_lines: Track) -> None:
         table.session.choose_robot("par4")
         assert table.player.state == "empty" and table.player.track is None
         assert table.player.progress == 0.0 and len(table.player.lengths_m) == 0
-        for act in (table.player.play, table.player.pause, table.player.resume, lambda: table.player.seek(3.0)):
+        for act in (table.player.play, table.player.pause, table.player.play, lambda: table.player.seek(3.0)):
             act()
             assert table.player.state == "empty" and table.player.time_s == 0.0
 

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from app.drawing import likeness as pixelwise
+from app.drawing.fitting import in_pixels
+from app.drawing.likeness import likeness as likeness_in_pixels
 from app.drawing.rasterise import render_ink
 from app.drawing.toolpath import Placement, Toolpath
 from app.robots.robot import Array
@@ -31,7 +32,7 @@ PX_PER_MM = 3.0
 def drawn_strokes(toolpath: Toolpath, placement: Placement) -> list[Array]:
     """The ink of a toolpath as strokes, (n, 2) sheet mm each: one from every lowering of the pen to its next lift."""
     down = np.flatnonzero(toolpath.pen)
-    points = _on_sheet(toolpath.pose[down, :2], placement)
+    points = placement.on_sheet(toolpath.pose[down, :2])
     runs = np.split(points, np.flatnonzero(np.diff(down) > 1) + 1)
     return [_thinned(run) for run in runs]
 
@@ -39,7 +40,7 @@ def drawn_strokes(toolpath: Toolpath, placement: Placement) -> list[Array]:
 def deviation_um(toolpath: Toolpath, placement: Placement, strokes: Sequence[Array]) -> float:
     """Root mean square distance of what is drawn from the nearest stroke, (n, 2) sheet mm each, micrometres."""
     drawn = np.flatnonzero(toolpath.stroke >= 0)
-    points = _on_sheet(toolpath.pose[drawn[:: math.ceil(len(drawn) / MOST_SAMPLES)], :2], placement)
+    points = placement.on_sheet(toolpath.pose[drawn[:: math.ceil(len(drawn) / MOST_SAMPLES)], :2])
     start, step = _pieces(strokes)
     nearest = KDTree(start + step / 2).query(points, k=min(NEIGHBOURS, len(start)))[1].reshape(len(points), -1)
     along, from_start = step[nearest], points[:, None] - start[nearest]
@@ -50,9 +51,7 @@ def deviation_um(toolpath: Toolpath, placement: Placement, strokes: Sequence[Arr
 
 def likeness(grey: NDArray[np.uint8], drawn: Sequence[Array], mm_per_px: float, pen_mm: float) -> float:
     """Likeness (0..1) of a picture (h, w) in the middle of the sheet with the ink of sheet strokes (n, 2) mm."""
-    middle = np.array([grey.shape[1] - 1, grey.shape[0] - 1]) / 2
-    pixels = [stroke / mm_per_px * (1.0, -1.0) + middle for stroke in drawn]
-    return pixelwise.likeness(grey, pixels, mm_per_px, pen_mm)
+    return likeness_in_pixels(grey, in_pixels(drawn, grey.shape, mm_per_px), mm_per_px, pen_mm)
 
 
 def likeness_to_strokes(strokes: Sequence[Array], drawn: Sequence[Array], pen_mm: float) -> float:
@@ -68,12 +67,6 @@ def _thinned(run: Array) -> Array:
     cell = np.cumsum(np.hypot(*np.diff(run, axis=0).T)) // SPACING_MM
     kept = np.flatnonzero(np.diff(cell[:-1]) > 0.0) + 2
     return run[np.concatenate([[0], kept, [len(run) - 1]])]
-
-
-def _on_sheet(points_m: Array, placement: Placement) -> Array:
-    """(n, 2) sheet mm of x and y (n, 2) in the robot's frame, m: the inverse of `Placement.on_table`."""
-    c, s = math.cos(placement.rotation_rad), math.sin(placement.rotation_rad)
-    return 1e3 * (points_m - placement.centre_m) @ np.array([[c, -s], [s, c]])
 
 
 def _pieces(strokes: Sequence[Array]) -> tuple[Array, Array]:

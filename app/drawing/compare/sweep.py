@@ -11,6 +11,7 @@ from app.drawing.compare.drawn import deviation_um, drawn_strokes, likeness, lik
 from app.drawing.compose import Composition, Look, compose
 from app.drawing.errors import DrawingError
 from app.drawing.modes import DRAWING_MODES
+from app.drawing.order import ink_mm
 from app.drawing.source import Source
 from app.drawing.toolpath import PenSettings, Placement, plan_toolpath
 from app.robots import Robot
@@ -127,7 +128,7 @@ def _measured(
         value,
         toolpath.duration_s,
         _likeness(source, composition, drawn, look.pen_mm),
-        sum(float(np.hypot(*np.diff(stroke, axis=0).T).sum()) for stroke in drawn),
+        ink_mm(drawn),
         len(composition.strokes),
         deviation_um=deviation_um(toolpath, placement, composition.strokes),
     )

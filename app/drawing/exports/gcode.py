@@ -18,6 +18,7 @@ import numpy as np
 
 from app.drawing.errors import DrawingError
 from app.drawing.exports.strokes import Stroke, checked_strokes, hops, length_mm
+from app.drawing.order import ink_mm
 
 Flavour = Literal["grbl", "marlin"]
 Pen = Literal["z", "servo", "laser"]
@@ -130,7 +131,7 @@ def _header(strokes: list[Stroke], pen: Pen, draw_mm_s: float, travel_mm_s: floa
     """What the file is, as comments. The time is without accelerations."""
     points = np.concatenate(strokes)
     (left, bottom), (right, top) = points.min(axis=0), points.max(axis=0)
-    down = sum(length_mm(stroke) for stroke in strokes)
+    down = ink_mm(strokes)
     home = np.zeros((1, 2))
     up = length_mm(hops([home, *strokes, home]))
     change_s = {"z": lift_mm / travel_mm_s + lift_mm / draw_mm_s, "servo": 2.0 * SERVO_WAIT_S, "laser": 0.0}[pen]

@@ -47,6 +47,16 @@ def hop_lengths(strokes: Sequence[Array], home: tuple[float, float] = HOME) -> A
     return np.hypot(*(starts - leaves).T)
 
 
+def ink_mm(strokes: Sequence[Array]) -> float:
+    """Length of all strokes, (n, 2) mm each."""
+    return sum(float(np.linalg.norm(np.diff(stroke, axis=0), axis=1).sum()) for stroke in strokes)
+
+
+def between_mm(strokes: Sequence[Array]) -> float:
+    """Length of the ways between the strokes, from the first one's beginning on."""
+    return pen_up_mm(strokes, tuple(strokes[0][0].tolist()))
+
+
 def pen_up_mm(strokes: Sequence[Array], home: tuple[float, float] = HOME) -> float:
     """The way with the pen up, beginning at `home`."""
     return float(hop_lengths(strokes, home).sum())

@@ -8,16 +8,14 @@ import numpy as np
 
 from app.drawing.rasterise.mode import PENS, Parameter, RasterMode
 from app.drawing.rasterise.simpler import simpler
-from app.drawing.rasterise.squiggle import POINTS_A_WAVE, SEEN, swing_of
-from app.drawing.rasterise.tone import drive_for, inked_where, sample, sample_mask, softened, wanted_cover
+from app.drawing.rasterise.squiggle import POINTS_A_WAVE, swing_of, waved
+from app.drawing.rasterise.tone import sample, sample_mask
 from app.drawing.rasterise.types import Field, Mask, Stroke
 
 
 def draw(tone: Field, pen: float, pitch: float = 4.0, wave: float = 2.4) -> list[Stroke]:
     """One PIXEL stroke, or none for a white picture; the parameters are in pen widths."""
-    cover = softened(wanted_cover(tone), SEEN * pitch * pen)
-    drive = drive_for(lay, cover, pitch=pitch, wave=wave)
-    return lay(drive, inked_where(tone, pen), pen, pitch=pitch, wave=wave)
+    return waved(lay, tone, pen, pitch, wave)
 
 
 def lay(drive: Field, inked: Mask, pen: float, *, pitch: float, wave: float) -> list[Stroke]:

@@ -7,7 +7,7 @@ import numpy as np
 from app.drawing.rasterise.mode import PENS, Parameter, RasterMode
 from app.drawing.rasterise.runs import places, runs
 from app.drawing.rasterise.simpler import simpler
-from app.drawing.rasterise.tone import drive_for, inked_where, sample, sample_mask, softened, wanted_cover
+from app.drawing.rasterise.tone import Lay, drive_for, inked_where, sample, sample_mask, softened, wanted_cover
 from app.drawing.rasterise.types import Field, Mask, Stroke
 
 POINTS_A_WAVE = 12
@@ -23,6 +23,11 @@ SEEN = 0.3
 
 def draw(tone: Field, pen: float, pitch: float = 4.0, wave: float = 2.4) -> list[Stroke]:
     """PIXEL strokes; the distance of rows and the length of a wave are in pen widths."""
+    return waved(lay, tone, pen, pitch, wave)
+
+
+def waved(lay: Lay, tone: Field, pen: float, pitch: float, wave: float) -> list[Stroke]:
+    """What `lay` makes of a picture (h, w) with lines `pitch` apart that swing in waves, both in pen widths."""
     cover = softened(wanted_cover(tone), SEEN * pitch * pen)
     drive = drive_for(lay, cover, pitch=pitch, wave=wave)
     return lay(drive, inked_where(tone, pen), pen, pitch=pitch, wave=wave)

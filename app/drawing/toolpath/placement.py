@@ -37,6 +37,11 @@ class Placement:
         c, s = math.cos(self.rotation_rad), math.sin(self.rotation_rad)
         return 1e-3 * np.asarray(points_mm, dtype=float) @ np.array([[c, s], [-s, c]]) + np.array(self.centre_m)
 
+    def on_sheet(self, points_m: Array) -> Array:
+        """(n, 2) x and y in the robot's frame, m -> (n, 2) sheet millimetres: the inverse of `on_table`."""
+        c, s = math.cos(self.rotation_rad), math.sin(self.rotation_rad)
+        return 1e3 * (points_m - np.array(self.centre_m)) @ np.array([[c, -s], [s, c]])
+
 
 class Sheet(NamedTuple):
     """A paper format as it lies, x by y."""

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from app.drawing.order import Improvement
 from app.drawing.source import Source, strokes_source
-from app.drawing.toolpath import Placement, default_pen, default_placement
+from app.drawing.toolpath import Placement, default_placement
 from app.robots import Robot
 from app.ui.compute import Worker
 from app.ui.drawing import jobs
@@ -25,6 +25,8 @@ from app.ui.drawing.jobs import Improved, Plan, Setup, Sketch, TooDense
 from app.ui.drawing.settings import (
     DrawingSettings,
     default_settings,
+    lies_flat,
+    moved_to,
     resized,
     turned,
     turned_to_fit,
@@ -44,25 +46,10 @@ IMPROVE_S = 0.4
 """At a time, so that others get their turn."""
 
 SLOW_MODES = frozenset({"one_line", "stipple", "streamlines"})
-"""These take half a second and more: nobody else's slider waits for them."""
-
-FLAT = 1.1
-"""A picture whose sides differ by less is as good on either sheet."""
+"""These take a quarter of a second and more: nobody else's slider waits for them."""
 
 ROUNDS = 3
 """Of improvement of one drawing."""
-
-
-def lies_flat(source: Source) -> bool | None:
-    """Whether a picture wants its sheet in landscape; None where it does not matter."""
-    if source.grey is None or max(source.grey.shape) < FLAT * min(source.grey.shape):
-        return None
-    return source.grey.shape[1] > source.grey.shape[0]
-
-
-def moved_to(settings: DrawingSettings, robot: Robot) -> DrawingSettings:
-    """Before another robot: the sheet lies where that has room, and the pen is lifted as suits it."""
-    return replace(settings, placement=None, pen=replace(settings.pen, lift_mm=default_pen(robot).lift_mm))
 
 
 class DrawingDesk:

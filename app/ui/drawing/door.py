@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-import viser
-
-from app.ui.bench import Bench
-from app.ui.compute import Worker
-from app.ui.gizmo import Gizmo
-from app.ui.session import Session
-from app.ui.stage import Stage
+from app.ui.drawing.surroundings import Surroundings
 from app.ui.tab_bell import on_tab_opened
 
 if TYPE_CHECKING:
@@ -21,22 +14,12 @@ LABEL = "Draw"
 
 
 class DrawingDoor:
-    """The tab, and who works in it: makers of lines of quick and of slow work."""
+    """The tab, before and after somebody has opened it."""
 
-    def __init__(
-        self,
-        client: viser.ClientHandle,
-        session: Session,
-        gizmo: Gizmo,
-        stage: Stage,
-        tab: viser.GuiTabHandle,
-        bench: Bench,
-        quick: Callable[[], Worker],
-        slow: Callable[[Callable[[], None] | None], Worker],
-    ) -> None:
-        self._parts = (client, session, gizmo, stage, tab, bench, quick, slow)
+    def __init__(self, surroundings: Surroundings) -> None:
+        self._surroundings = surroundings
         self._room: DrawingRoom | None = None
-        on_tab_opened(client, LABEL, self._open)
+        on_tab_opened(surroundings.client, LABEL, self._open)
 
     def close(self) -> None:
         if self._room is not None:
@@ -48,5 +31,5 @@ class DrawingDoor:
             return
         from app.ui.drawing.room import DrawingRoom
 
-        self._room = DrawingRoom(*self._parts)
+        self._room = DrawingRoom(self._surroundings)
         await self._room.build()

@@ -13,7 +13,7 @@ from app.drawing.compose import Composition, Look, compose
 from app.drawing.errors import DrawingError, TooManyStrokes
 from app.drawing.exports import EXPORTS, write_gcode, write_preview_png, write_toolpath_csv
 from app.drawing.modes import DRAWING_MODES
-from app.drawing.order import Improvement, join_touching
+from app.drawing.order import Improvement, between_mm, ink_mm, join_touching
 from app.drawing.samples import sample_bytes
 from app.drawing.source import Source, read_source, text_source
 from app.drawing.toolpath import (
@@ -65,6 +65,9 @@ class Sketch:
     reason: str
     notes: tuple[str, ...]
     similarity: float | None
+    ink_mm: float
+    between_mm: float
+    """Way from stroke to stroke."""
     setup: Setup
     outside: list[NDArray[np.bool_]]
     """Which points of each stroke are out of reach."""
@@ -149,6 +152,8 @@ def sketch(source: Source, look: Look, setup: Setup) -> Sketch | Refusal | TooDe
         found.reason,
         found.notes,
         found.similarity,
+        ink_mm(found.strokes),
+        between_mm(found.strokes),
         setup,
         outside,
         preview,
@@ -197,8 +202,10 @@ def improve(state: Improvement, drawn: Sketch, best: Plan, seconds: float) -> Im
     found = plan(strokes, drawn.setup)
     if isinstance(found, Refusal) or found.time_s >= best.time_s:
         return None
-    preview = picture_of(strokes, drawn.look, drawn.setup, outside_of(strokes, drawn.setup))
-    return Improved(state, replace(drawn, strokes=strokes, preview=preview, outside=_nowhere(strokes)), found)
+    outside = [np.zeros(len(stroke), bool) for stroke in strokes]  # or there would be no plan
+    preview = picture_of(strokes, drawn.look, drawn.setup, outside)
+    lengths = {"ink_mm": ink_mm(strokes), "between_mm": between_mm(strokes)}
+    return Improved(state, replace(drawn, strokes=strokes, preview=preview, outside=outside, **lengths), found)
 
 
 def can_improve(drawn: Sketch) -> bool:
@@ -231,10 +238,6 @@ def _summary(path: Toolpath, pen: PenSettings) -> Plan:
         laser = (path.t[chosen], 1e3 * path.speed_m_s[chosen], laser_power(path, pen)[chosen])
     ratios = path.max_joint_speed_ratio, path.max_joint_acceleration_ratio
     return Plan(track(path), path.duration_s, path.stray_ink_mm, *ratios, laser)
-
-
-def _nowhere(strokes: list[Array]) -> list[NDArray[np.bool_]]:
-    return [np.zeros(len(stroke), bool) for stroke in strokes]
 
 
 def _original(found: Composition) -> bytes | None:

@@ -99,11 +99,6 @@ class DrawingPlayer:
         self._playback.play()
         self._tell()
 
-    def resume(self) -> None:
-        """Go on where it was paused."""
-        if self.state in ("pausing", "paused"):
-            self.play()
-
     def pause(self) -> None:
         """Draw on until the pen is lifted, then stand still; asked twice, stop at once."""
         if self._track is None:

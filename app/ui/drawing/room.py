@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
 
 import viser
 
-from app.ui.bench import Bench
-from app.ui.compute import Worker
 from app.ui.drawing.desk import DrawingDesk
 from app.ui.drawing.player import DrawingPlayer
 from app.ui.drawing.scene import DrawingScene
 from app.ui.drawing.series import Series
-from app.ui.gizmo import Gizmo
+from app.ui.drawing.surroundings import Surroundings
 from app.ui.panels.drawing.compare_panel import ComparePanel
 from app.ui.panels.drawing.export_panel import ExportPanel
 from app.ui.panels.drawing.laser_panel import LaserPanel
@@ -25,8 +22,6 @@ from app.ui.panels.drawing.sheet_panel import SheetPanel
 from app.ui.panels.drawing.source_panel import SourcePanel
 from app.ui.playback import Playback
 from app.ui.plots import PLOT_STYLE
-from app.ui.session import Session
-from app.ui.stage import Stage
 
 PHONE_PICTURE = "20vh"
 """Height of the drawing that also stands above the settings on a phone, where the panels are far apart."""
@@ -35,30 +30,17 @@ PHONE_PICTURE = "20vh"
 class DrawingRoom:
     """Built when the tab is opened for the first time."""
 
-    def __init__(
-        self,
-        client: viser.ClientHandle,
-        session: Session,
-        gizmo: Gizmo,
-        stage: Stage,
-        tab: viser.GuiTabHandle,
-        bench: Bench,
-        quick: Callable[[], Worker],
-        slow: Callable[[Callable[[], None] | None], Worker],
-    ) -> None:
+    def __init__(self, surroundings: Surroundings) -> None:
+        client, session, gizmo, stage, self._tab, self._bench, self._quick, self._slow = surroundings
         self._client = client
-        self._tab = tab
-        self._bench = bench
-        self._quick = quick
-        self._slow = slow
-        self.desk = DrawingDesk(session, quick(), slow(None), quick(), slow(None))
+        self.desk = DrawingDesk(session, self._quick(), self._slow(None), self._quick(), self._slow(None))
         self._playback = Playback(session)
         self._player = DrawingPlayer(session, self._playback)
         self._scene = DrawingScene(client, session, gizmo, stage, self.desk, self._player)
-        self._panel = bench.add_panel()
+        self._panel = self._bench.add_panel()
         self._plays: list[PlayPanel] = []
         self._closed = False
-        bench.shown.connect(lambda panel: self._scene.visible(panel is self._panel))
+        self._bench.shown.connect(lambda panel: self._scene.visible(panel is self._panel))
 
     async def build(self) -> None:
         """Panel by panel: others get their turn between them."""

@@ -8,11 +8,21 @@ from typing import Any
 
 from app.drawing.compose import Look
 from app.drawing.modes import PRESETS
+from app.drawing.source import Source
 from app.drawing.toolpath import PenSettings, Placement, Sheet, default_pen, default_placement, sheet_fits
+from app.drawing.toolpath.placement import SHEETS
 from app.robots import Robot
 
-SHEETS_MM: dict[str, tuple[float, float]] = {"A6": (105.0, 148.0), "A5": (148.0, 210.0), "A4": (210.0, 297.0)}
-"""Upright."""
+LARGER_THAN_ANY_REACH = "A3"
+SHEETS_MM: dict[str, tuple[float, float]] = {
+    sheet.name: (float(sheet.width_mm), float(sheet.height_mm))
+    for sheet in reversed(SHEETS)
+    if sheet.name != LARGER_THAN_ANY_REACH
+}
+"""From the smallest to the largest, upright."""
+
+FLAT = 1.1
+"""A picture whose sides differ by less is as good on either sheet."""
 
 OF_LOOK = frozenset(one.name for one in fields(Look)) - {"mode", "sheet_mm", "parameters", "weight"}
 
@@ -55,6 +65,18 @@ def turned_to_fit(settings: DrawingSettings, robot: Robot, landscape: bool | Non
         if sheet_fits(Sheet(one.sheet, *one.sheet_mm), robot, placement, one.pen.lift_mm):
             return one
     return wanted
+
+
+def lies_flat(source: Source) -> bool | None:
+    """Whether a picture wants its sheet in landscape; None where it does not matter."""
+    if source.grey is None or max(source.grey.shape) < FLAT * min(source.grey.shape):
+        return None
+    return source.grey.shape[1] > source.grey.shape[0]
+
+
+def moved_to(settings: DrawingSettings, robot: Robot) -> DrawingSettings:
+    """Before another robot: the sheet lies where that has room, and the pen is lifted as suits it."""
+    return replace(settings, placement=None, pen=replace(settings.pen, lift_mm=default_pen(robot).lift_mm))
 
 
 def with_mode(settings: DrawingSettings, mode: str, parameters: Mapping[str, Any] | None = None) -> DrawingSettings:

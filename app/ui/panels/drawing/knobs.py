@@ -62,7 +62,7 @@ class Knob:
             options = tuple(f"{choice:g}" for choice in parameter.choices)
             self._choice = gui.add_dropdown(label, options, initial_value=f"{parameter.default:g}", hint=hint)
         else:
-            low, high, step, value = (whole(v) for v in self._range())
+            low, high, step, value = map(whole, (parameter.low, parameter.high, parameter.step, parameter.default))
             self._slider = gui.add_slider(label, low, high, step, value, hint=hint)
         self._listen()
 
@@ -83,10 +83,6 @@ class Knob:
         for handle in (self._auto, self._slider, self._choice):
             if handle is not None:
                 handle.remove()
-
-    def _range(self) -> tuple[float, float, float, float]:
-        parameter = self.parameter
-        return parameter.low, parameter.high, parameter.step, parameter.default
 
     def _listen(self) -> None:
         name = self.parameter.name

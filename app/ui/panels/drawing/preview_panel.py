@@ -5,11 +5,9 @@ from __future__ import annotations
 import base64
 import html
 
-import numpy as np
 import viser
 
 from app.drawing.modes import DRAWING_MODES
-from app.drawing.order import pen_up_mm
 from app.ui.drawing.desk import DrawingDesk
 from app.ui.drawing.jobs import Plan, Sketch, TooDense
 from app.ui.panels.drawing.source_panel import problem
@@ -45,7 +43,7 @@ class PreviewPanel:
 
     def _tabulate(self) -> None:
         desk = self._desk
-        if desk.sketch is not None:
+        if desk.sketch is not None and self._table.visible:
             self._table.content = numbers_table(desk.sketch, desk.plan, waiting=desk.no_way is None)
 
     def _tell(self, refusal: Refusal | TooDense | None) -> None:
@@ -71,15 +69,13 @@ def _figure(caption: str, share: int, kind: str, data: bytes, height: str) -> st
 def numbers_table(sketch: Sketch, plan: Plan | None, *, waiting: bool) -> str:
     """HTML: what the drawing costs, and what comes of it; `waiting` for the plan."""
     strokes = sketch.strokes
-    ink_mm = sum(float(np.linalg.norm(np.diff(stroke, axis=0), axis=1).sum()) for stroke in strokes)
-    up_mm = pen_up_mm(strokes, tuple(strokes[0][0].tolist()))
     lifts = len(strokes) - 1 if sketch.setup.pen.rises else 0
     unplanned = "out of reach" if not sketch.is_reachable else "…" if waiting else "none"
     rows = [
         ("Mode", html.escape(mode_title(sketch.mode))),
         ("Strokes", f"{len(strokes)}"),
-        ("Ink", _length(ink_mm)),
-        ("Pen up" if lifts or sketch.setup.pen.laser else "Between strokes", _length(up_mm)),
+        ("Ink", _length(sketch.ink_mm)),
+        ("Pen up" if lifts or sketch.setup.pen.laser else "Between strokes", _length(sketch.between_mm)),
         ("Lifts", f"{lifts}"),
         ("Drawing time", duration(plan.time_s) if plan else unplanned),
     ]

@@ -1,0 +1,29 @@
+"""What the tab Draw finds when it is opened: the page around it, and who works for it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import viser
+
+from app.ui.bench import Bench
+from app.ui.compute import Worker
+from app.ui.gizmo import Gizmo
+from app.ui.session import Session
+from app.ui.stage import Stage
+
+
+class Surroundings(NamedTuple):
+    """Of one browser."""
+
+    client: viser.ClientHandle
+    session: Session
+    gizmo: Gizmo
+    stage: Stage
+    tab: viser.GuiTabHandle
+    bench: Bench
+    quick: Callable[[], Worker]
+    """Makes a line of quick work."""
+    slow: Callable[[Callable[[], None] | None], Worker]
+    """Makes a line of slow work; what it is given hears of failures."""
