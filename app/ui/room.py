@@ -23,7 +23,7 @@ from app.ui.session import Session
 from app.ui.shape_cache import ShapeCache
 from app.ui.stage import Stage
 from app.ui.state import Memory
-from app.ui.viser_adapter import NodeStream, run_javascript
+from app.ui.viser_adapter import NodeStream, browser_id, run_javascript
 from app.ui.workspace_view import WorkspaceCache, WorkspaceView
 
 PANEL_WIDTH = 320
@@ -41,6 +41,7 @@ class Room:
         spaces: WorkspaceCache,
     ) -> None:
         self._client = client
+        self.browser = browser_id(client)
         self.session = Session(memory)
         self._pools = pools
         self._shapes = shapes

@@ -77,17 +77,23 @@ class Lab:
         gc.freeze()
 
     async def _welcome(self, client: viser.ClientHandle) -> None:
-        memory = self._memories.get(browser_id(client)) or self._fresh
-        room = Room(client, memory, self._pools, self._shapes, self._spaces)
+        room = Room(client, self._memory_of(browser_id(client)), self._pools, self._shapes, self._spaces)
         self.rooms[client.client_id] = room
         await room.furnish()
+
+    def _memory_of(self, browser: str) -> Memory:
+        """What this browser did last. After a quick reload its old page may not have said farewell yet."""
+        for room in reversed(self.rooms.values()):
+            if room.browser == browser:
+                return room.session.memory
+        return self._memories.get(browser) or self._fresh
 
     async def _farewell(self, client: viser.ClientHandle) -> None:
         room = self.rooms.pop(client.client_id, None)
         if room is None:
             return
         room.close()
-        self._memories.put(browser_id(client), room.session.memory)
+        self._memories.put(room.browser, room.session.memory)
 
 
 def serve(options: ServeOptions) -> None:

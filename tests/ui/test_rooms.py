@@ -92,6 +92,9 @@ def test_a_reload_finds_the_same_robot_again(server: RunningServer):
             await client.wait_for(lambda: not client.has("q4 (deg)"), "three joints")
             await client.set_value("x (mm)", 25.0)
             await client.wait_for(near(client, (0.025, 0.0, -0.33)), "typed pose")
+            async with wire_client(server.url, headers=headers) as before_the_old_page_is_gone:
+                await furnished(before_the_old_page_is_gone)
+                assert before_the_old_page_is_gone.value_of("Robot") == "Drawing delta"
         async with wire_client(server.url, headers=headers) as again:
             await furnished(again)
             assert again.value_of("Robot") == "Drawing delta"
