@@ -1,0 +1,20 @@
+/* Everything that can be set, as one array of floats: ids as in PROTOCOL.md. */
+#ifndef DL_SETTINGS_H
+#define DL_SETTINGS_H
+
+#include <stdint.h>
+
+#define DL_JOINTS 4
+#define DL_JOINT_SETTINGS 10
+#define DL_GEOMETRY_SIZE 23
+
+enum { DL_KP, DL_KI, DL_KD, DL_N, DL_MIN, DL_MAX, DL_SPEED, DL_OFFSET, DL_SCALE, DL_HOME_JOINT };
+enum {
+    DL_TOOL_SPEED = 40, DL_HOLD_AFTER, DL_OFF_AFTER, DL_JUMP, DL_FOLLOWING, DL_FOLLOWING_TIME, DL_HOME_SPEED,
+    DL_SUPPLY, DL_SERIAL, DL_PEN_UP, DL_PEN_DOWN, DL_STOP_TIME, DL_DUTY_MAX, DL_GEOMETRY,
+    DL_SETTINGS = DL_GEOMETRY + DL_GEOMETRY_SIZE
+};
+
+#define DL_IMAGE_BYTES (4 * DL_SETTINGS + 2)
+
+#endif
