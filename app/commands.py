@@ -12,7 +12,7 @@ from typing import TypeVar
 
 import tyro
 
-from app import __version__
+from app import __version__, firmware_command, link_command
 from app.draw_command import Draw, draw
 from app.errors import UserMistake
 from app.resources import data_root
@@ -70,31 +70,58 @@ def reproduce(command: Reproduce) -> None:
 
 COMMANDS: dict[str, tuple[type, Callable[..., None]]] = {
     "draw": (Draw, draw),
+    "firmware build": (firmware_command.Build, firmware_command.build),
+    "firmware upload": (firmware_command.Upload, firmware_command.upload),
+    "link info": (link_command.Info, link_command.info),
+    "link jog": (link_command.JogOnce, link_command.jog),
+    "link monitor": (link_command.Monitor, link_command.monitor),
+    "link ports": (link_command.Ports, link_command.ports),
     "meshes": (Meshes, build_meshes),
     "reproduce": (Reproduce, reproduce),
 }
-"""Name of a command -> its options and what carries it out. Without a name, the page is served."""
+"""Name of a command, of one word or two -> its options and what carries it out. Without a name, the page is served."""
+
+
+WIDTH = max(map(len, COMMANDS))
 
 
 def run(arguments: list[str]) -> None:
     """Find the command, read its options and carry it out."""
     first = arguments[0] if arguments else ""
-    if first == "--version":
+    name = next((name for name in (" ".join(arguments[:2]), first) if name in COMMANDS), None)
+    if name is not None:
+        options, execute = COMMANDS[name]
+        execute(parse(options, f"deltalab {name}", arguments[len(name.split()) :]))
+    elif first == "--version":
         print(f"deltalab {__version__}")
-    elif first in COMMANDS:
-        options, execute = COMMANDS[first]
-        execute(parse(options, f"deltalab {first}", arguments[1:]))
     elif first and not first.startswith("-"):
-        raise UserMistake(f"There is no command {first!r}: choose {', '.join(COMMANDS)}, or none to serve the page.")
+        choose_another(first, arguments[1:])
     else:
         serve(parse(ServeOptions, "deltalab", arguments, description=overview()))
 
 
+def choose_another(first: str, others: list[str]) -> None:
+    """Help for the first word of some commands; anything else is no command."""
+    seconds = [name.split()[1] for name in COMMANDS if name.startswith(f"{first} ")]
+    if seconds and others[:1] in (["--help"], ["-h"]):
+        print("\n".join(summary(first)))
+    elif seconds:
+        raise UserMistake(f"Say what deltalab {first} is to do: {', '.join(seconds)}.")
+    else:
+        words = dict.fromkeys(name.split()[0] for name in COMMANDS)
+        raise UserMistake(f"There is no command {first!r}: choose {', '.join(words)}, or none to serve the page.")
+
+
 def overview() -> str:
     """What `deltalab --help` says above its options."""
-    lines = [f"  deltalab {name:<10} {options.__doc__}" for name, (options, _) in COMMANDS.items()]
-    lines.append(f"  deltalab {'--version':<10} Print the version.")
+    lines = [*summary(), f"  deltalab {'--version':<{WIDTH}} Print the version."]
     return "\n".join([ServeOptions.__doc__ or "", "", "Other commands (each has its own --help):", *lines])
+
+
+def summary(first: str = "") -> list[str]:
+    """A line for each command that begins with a word."""
+    chosen = [(name, options) for name, (options, _) in COMMANDS.items() if name.startswith(first)]
+    return [f"  deltalab {name:<{WIDTH}} {options.__doc__}" for name, options in chosen]
 
 
 def parse(options: type[Command], prog: str, arguments: list[str], description: str | None = None) -> Command:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import os
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from typing import Any
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as `app.cli` does, before anything loads NumPy
@@ -15,7 +15,7 @@ from hypothesis import settings
 from playwright.sync_api import Browser, Page, sync_playwright
 from xdist.scheduler import LoadFileScheduling
 
-from tests.support.browser import CHROMIUM, DESKTOP, PHONE, PageFactory, Screen, launch, new_page
+from tests.support.browser import CHROMIUM, DESKTOP, PHONE, SKETCHY, PageFactory, Screen, launch, new_page
 from tests.support.imports import ROOT
 from tests.support.server import RunningServer, ServerFactory, running_deltalab
 
@@ -39,15 +39,25 @@ def draws_pages(path: str) -> bool:
 
 
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> ByFile:
+    config.option.loadscopereorder = False  # the order of the files is that of the tests, see below
     return ByFile(config, log)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what needs Chromium; in a file it comes last: from then on Playwright has a loop on the main thread."""
+    """Mark what needs Chromium, and put the tests in order.
+
+    What takes longest starts first, or one worker would be at it when the others have finished. In a file,
+    Chromium comes last: from then on Playwright has a loop on the main thread.
+    """
     for item in items:
         if "browser" in getattr(item, "fixturenames", ()):
             item.add_marker("browser")
-    items.sort(key=lambda item: item.get_closest_marker("browser") is not None)
+
+    def turn(item: pytest.Item) -> tuple[bool, bool]:
+        long = item.get_closest_marker("long") is not None or draws_pages(item.nodeid.partition("::")[0])
+        return not long, item.get_closest_marker("browser") is not None
+
+    items.sort(key=turn)
 
 
 @pytest.fixture(scope="module")
@@ -59,14 +69,14 @@ def browser() -> Iterator[Browser]:
             pytest.fail(reason)
         pytest.skip(reason)
     with sync_playwright() as playwright:
-        chromium = launch(playwright)
+        chromium = launch(playwright, SKETCHY)
         yield chromium
         chromium.close()
 
 
-@pytest.fixture
-def visit(browser: Browser) -> Iterator[PageFactory]:
-    """`visit(PHONE)`: a fresh visitor's page on that screen. An uncaught script error fails the test."""
+@contextmanager
+def visitors(browser: Browser) -> Iterator[PageFactory]:
+    """Pages of fresh visitors; an uncaught script error in one of them is a failure."""
     pages: list[Page] = []
     errors: list[str] = []
 
@@ -80,6 +90,20 @@ def visit(browser: Browser) -> Iterator[PageFactory]:
     for page in pages:
         page.context.close()
     assert not errors, f"script errors on the page: {errors}"
+
+
+@pytest.fixture
+def visit(browser: Browser) -> Iterator[PageFactory]:
+    """`visit(PHONE)`: a fresh visitor's page on that screen."""
+    with visitors(browser) as make:
+        yield make
+
+
+@pytest.fixture(scope="module")
+def lasting_visit(browser: Browser) -> Iterator[PageFactory]:
+    """`lasting_visit()`: a page for a module's tests. Each costs seconds to draw without a graphics processor."""
+    with visitors(browser) as make:
+        yield make
 
 
 @pytest.fixture

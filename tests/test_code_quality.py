@@ -7,9 +7,12 @@ import os
 import subprocess
 import sys
 
+import pytest
+
 from tests.support.imports import ROOT
 
 CHECKED = ("app", "tests")
+pytestmark = pytest.mark.long
 
 
 def test_ruff_is_content() -> None:

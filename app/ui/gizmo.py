@@ -10,7 +10,7 @@ import math
 
 import viser
 
-from app.ui.session import Session
+from app.ui.session import Session, Signal
 from app.ui.state import Stance
 from app.ui.viser_adapter import NodeStream, silence_gizmo_echo
 
@@ -24,6 +24,8 @@ class Gizmo:
     """`/robot/gizmo` and, for a robot with a rotation, the ring `/robot/platform/turn`, which rides along."""
 
     def __init__(self, client: viser.ClientHandle, session: Session, stream: NodeStream) -> None:
+        self.held: Signal[bool] = Signal()
+        """Somebody has taken hold of it, or let it go."""
         self._client = client
         self._session = session
         self._stream = stream
@@ -42,6 +44,8 @@ class Gizmo:
         for handle in (self._arrows, self._ring):
             if handle is not None:
                 handle.remove()
+        if self._dragged is not None:
+            self.held.emit(False)
         self._dragged = self._ring = None
         self._turn = 0.0
         size = GIZMO_SIZE_M
@@ -105,8 +109,10 @@ class Gizmo:
         if event.phase == "end":
             self._dragged = None
             self._session.release()
-        else:
+            self.held.emit(False)
+        elif self._dragged is not event.target:
             self._dragged = event.target
+            self.held.emit(True)
 
 
 def _about_z(angle: float) -> tuple[float, float, float, float]:

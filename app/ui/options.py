@@ -27,6 +27,12 @@ def _robot(words: list[str]) -> str:
     return words[0]
 
 
+def _pin(words: list[str]) -> str:
+    if not (words[0].isascii() and words[0].isdigit() and 4 <= len(words[0]) <= 12):
+        raise ValueError("a PIN has 4 to 12 digits")
+    return words[0]
+
+
 _PORT = PrimitiveConstructorSpec(
     nargs=1,
     metavar="PORT",
@@ -40,6 +46,13 @@ _ROBOT = PrimitiveConstructorSpec(
     instance_from_str=_robot,
     is_instance=lambda value: value in ROBOTS,
     str_from_instance=lambda name: [name],
+)
+_PIN = PrimitiveConstructorSpec(
+    nargs=1,
+    metavar="DIGITS",
+    instance_from_str=_pin,
+    is_instance=lambda value: value is None or isinstance(value, str),
+    str_from_instance=lambda pin: [pin or "random"],
 )
 
 
@@ -61,3 +74,7 @@ class ServeOptions:
         tuple[str, ...], tyro.conf.arg(name="allow-host", metavar="NAME"), tyro.conf.UseAppendAction
     ] = ()
     """Name under which browsers may also reach the page, say that of a proxy. May be given several times."""
+    serial: Annotated[str | None, tyro.conf.arg(metavar="PORT")] = None
+    """Port of the robot on the table: /dev/ttyUSB0, COM3, or an emulated board such as sim:par4 or sim:delta3."""
+    pin: Annotated[str | None, _PIN] = None
+    """What makes somebody the instructor, who may take the robot over. Without it, one is chosen and printed."""

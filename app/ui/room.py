@@ -13,6 +13,11 @@ from app.ui.drawing.door import DrawingDoor
 from app.ui.drawing.surroundings import Surroundings
 from app.ui.ghosts import Ghosts
 from app.ui.gizmo import Gizmo
+from app.ui.hardware.access import RobotAccess
+from app.ui.hardware.door import HardwareDoor
+from app.ui.hardware.stop_bar import StopBar
+from app.ui.hardware.surroundings import HardwareSurroundings
+from app.ui.hardware.workshop import Workshop
 from app.ui.lab.room import ControlRoom
 from app.ui.notice import Notice
 from app.ui.overlay import Overlay
@@ -39,6 +44,7 @@ class Room:
         pools: Pools,
         shapes: ShapeCache,
         spaces: WorkspaceCache,
+        workshop: Workshop,
     ) -> None:
         self._client = client
         self.browser = browser_id(client)
@@ -46,6 +52,7 @@ class Room:
         self._pools = pools
         self._shapes = shapes
         self._spaces = spaces
+        self._workshop = workshop
         self._workers: list[Worker] = []
         self._closers: list[Callable[[], None]] = []
         self._closed = False
@@ -59,6 +66,7 @@ class Room:
         RobotView(client, session, stream, self._shapes, self._worker())
         gizmo = Gizmo(client, session, stream)
         Notice(client, session)
+        self._closers.append(StopBar(client, self._workshop, self.browser).close)
         client.flush()
         await asyncio.sleep(0)
         if self._closed:
@@ -87,14 +95,31 @@ class Room:
             robot_panel = RobotPanel(gui, session)
         control_tab = tabs.add_tab("Control", viser.Icon.ADJUSTMENTS)
         draw_tab = tabs.add_tab("Draw", viser.Icon.PENCIL)
+        hardware_tab = tabs.add_tab("Hardware", viser.Icon.PLUG)
         with tabs.add_tab("View", viser.Icon.EYE):
             ViewPanel(gui, session, stage, overlay)
         bench = Bench(client)
-        lab = ControlRoom(client, session, control_tab, bench, self._quick_worker(), self._worker, self._tell)
+        access = RobotAccess(client, session, gizmo, self._shapes, self._workshop, self.browser)
+        lab = ControlRoom(client, session, control_tab, bench, self._quick_worker(), self._worker, self._tell, access)
         drawing = DrawingDoor(
-            Surroundings(client, session, gizmo, stage, draw_tab, bench, self._quick_worker, self._worker)
+            Surroundings(client, session, gizmo, stage, draw_tab, bench, access, self._quick_worker, self._worker)
         )
-        self._closers += [overlay.close, ghosts.close, robot_panel.close, lab.close, drawing.close]
+        hardware = HardwareDoor(
+            HardwareSurroundings(
+                client,
+                session,
+                hardware_tab,
+                bench,
+                access,
+                self._quick_worker,
+                self._worker,
+                drawing=lambda: drawing.drawing,
+                run=lambda: lab.run,
+                use_motor=lab.use_motor,
+            )
+        )
+        self._closers += [overlay.close, ghosts.close, robot_panel.close, lab.close, drawing.close, hardware.close]
+        self._closers.append(access.close)
 
     def _worker(self, failed: Callable[[], None] | None = None) -> Worker:
         """A line of slow work; `failed` is called after a job of it could not be done and the user was told."""

@@ -15,7 +15,8 @@ import viser
 from app.robots import ROBOTS, build_robot
 from app.ui.compute import make_pools
 from app.ui.drawing.warm_up import warm_up_server, warm_up_worker
-from app.ui.guard import Guard
+from app.ui.guard import Guard, is_loopback
+from app.ui.hardware.workshop import Workshop, choose_pin
 from app.ui.jobs import warm_up
 from app.ui.lab.jobs import warm_up as warm_up_control
 from app.ui.options import ServeOptions
@@ -44,6 +45,9 @@ class Lab:
         self._spaces = WorkspaceCache(CACHE_SIZE)
         self._memories: Recent[str, Memory] = Recent(REMEMBERED)
         self._fresh = Memory(options.robot, view=ViewOptions(shadows=options.shadows))
+        local_only = is_loopback(options.host)
+        self.pin = choose_pin(options.pin, serial=options.serial is not None, local_only=local_only)
+        self.workshop = Workshop(self.pin, local_only=local_only)
         self.rooms: dict[int, Room] = {}
         self.server = start_server(options.host, options.port, Guard(allowed_hosts=options.allowed_hosts))
         light_the_room(self.server)
@@ -59,6 +63,7 @@ class Lab:
     def close(self) -> None:
         """Stop at once; what the workers compute is dropped."""
         stop_server(self.server)
+        self.workshop.close()
         for process in multiprocessing.active_children():
             process.kill()
         self._pools.shutdown()
@@ -69,6 +74,7 @@ class Lab:
         for pool in self._pools:
             pool.submit(warm_up_worker)
         warm_up_server()
+        self.workshop.warm_up()
         self._pools.slow.submit(warm_up)
         for name in ROBOTS:
             self._shapes.learn(build_robot(name, {}))
@@ -77,7 +83,8 @@ class Lab:
         gc.freeze()
 
     async def _welcome(self, client: viser.ClientHandle) -> None:
-        room = Room(client, self._memory_of(browser_id(client)), self._pools, self._shapes, self._spaces)
+        memory = self._memory_of(browser_id(client))
+        room = Room(client, memory, self._pools, self._shapes, self._spaces, self.workshop)
         self.rooms[client.client_id] = room
         await room.furnish()
 
@@ -103,6 +110,10 @@ def serve(options: ServeOptions) -> None:
         signal.signal(number, lambda *_: stop.set())
     lab = Lab(options)
     print(f"Delta Lab is running at {lab.url} (Ctrl-C stops it)", flush=True)
+    if lab.pin:
+        print(f"The instructor's PIN is {lab.pin}", flush=True)
+    if options.serial is not None:
+        lab.workshop.connect_at_start(options.serial, lambda sentence: print(sentence, flush=True))
     if options.open_browser:
         webbrowser.open(lab.url)
     try:

@@ -62,6 +62,10 @@ class ViewOptions:
     """Ghosts of the other elbow solutions."""
     assemblies: bool = False
     """Ghosts of the other assembly modes."""
+    measured: bool = True
+    """Ghost of the robot on the table, where its sensors see it."""
+    follow: bool = False
+    """Stand where the robot on the table is commanded to be while it moves."""
     dark: bool = False
     shadows: bool = True
     """Shadows cost a computer without a graphics processor half of its frames."""

@@ -49,7 +49,7 @@ class Options:
 
 def in_browser(page: Page, server: RunningServer, runs: int) -> list[float]:
     """Milliseconds of each move."""
-    open_page(page, server.url, ["/robot/tool"])
+    open_page(page, server.url, ["/robot/tool"], sharpness=None)
     page.get_by_role("tab", name="Control", exact=True).wait_for()
     open_tab(page, "Control")
     wait_until(page, lambda: (found := chart(page, STEP)) and len(found.x) > 100, "step response", timeout=60)

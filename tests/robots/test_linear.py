@@ -212,15 +212,16 @@ def columns(step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def test_nearest_of_thousands_of_targets_is_the_nearest():
     """The workspace is hollow above, where a descent may end in the lesser of two corners: 1 in 200 may."""
-    targets = np.random.default_rng(2).uniform((-0.6, -0.6, -1.3), (0.6, 0.6, 0.3), (5200, 3))
+    targets = np.random.default_rng(2).uniform((-0.6, -0.6, -1.3), (0.6, 0.6, 0.3), (2600, 3))
     targets = targets[~LINEAR.reachable(targets)]
-    assert len(targets) > 5000
+    assert len(targets) > 2500
     answers = LINEAR.nearest(targets)
     assert LINEAR.reachable(answers).all()
     xy, low, high = columns(step=0.005)
     best = np.empty(len(targets))
     for row, (x, y, z) in enumerate(targets):
-        best[row] = np.sqrt(((xy - (x, y)) ** 2).sum(-1) + (np.clip(z, low, high) - z) ** 2).min()
+        squares = (xy[:, 0] - x) ** 2 + (xy[:, 1] - y) ** 2 + (np.clip(z, low, high) - z) ** 2
+        best[row] = np.sqrt(squares.min())
     excess = np.linalg.norm(answers - targets, axis=-1) - best
     assert (excess > 1e-3).mean() <= 0.005
     assert excess.max() < 0.02

@@ -28,9 +28,13 @@ FLAGS = [
     "--enable-unsafe-swiftshader",
     "--ignore-gpu-blocklist",
 ]
+SKETCHY = ("--webgl-antialiasing-mode=none",)
+"""Flags for tests that read poses rather than pixels: their frames cost less."""
+SHARPNESS = 0.5
+"""Pixels of the scene for a pixel of the page: without a graphics processor, all of them cost half a second a frame."""
 READY_TIMEOUT = 60.0
-FADE_IN = 2.0
-"""Seconds until a fresh canvas has faded in."""
+SETTLE = 0.5
+"""Seconds until what was just asked for is on the screen."""
 GRIP = 0.75
 """Where along its arrow a gizmo is taken hold of."""
 RING = 0.65
@@ -89,9 +93,9 @@ class Pose:
     wxyz: tuple[float, float, float, float]
 
 
-def launch(playwright: Playwright) -> Browser:
+def launch(playwright: Playwright, flags: Sequence[str] = ()) -> Browser:
     """Chromium with WebGL drawn in software."""
-    return playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+    return playwright.chromium.launch(executable_path=CHROMIUM, args=[*FLAGS, *flags])
 
 
 def new_page(browser: Browser, screen: Screen = DESKTOP) -> Page:
@@ -100,9 +104,18 @@ def new_page(browser: Browser, screen: Screen = DESKTOP) -> Page:
     return context.new_page()
 
 
-def open_page(page: Page, url: str, nodes: Sequence[str] = (), timeout: float = READY_TIMEOUT) -> None:
-    """Go to `url` and wait until everything sent was applied and `nodes` are in the scene."""
-    page.goto(url, wait_until="domcontentloaded")
+def open_page(
+    page: Page,
+    url: str,
+    nodes: Sequence[str] = (),
+    timeout: float = READY_TIMEOUT,
+    sharpness: float | None = SHARPNESS,
+) -> None:
+    """Go to `url` and wait until everything sent was applied and `nodes` are in the scene.
+
+    Without `sharpness` the address is the one that a student opens, and the page chooses by itself.
+    """
+    page.goto(url if sharpness is None else f"{url}/?fixedDpr={sharpness}", wait_until="domcontentloaded")
     wait_ready(page, nodes, timeout)
 
 
@@ -235,8 +248,8 @@ def _touch(session: CDPSession, kind: str, *fingers: tuple[float, float]) -> Non
     session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
 
 
-def screenshot(page: Page, name: str, settle: float = FADE_IN) -> Path:
-    """Picture of the page in `tests/artifacts/NAME.png`, taken once the canvas has faded in."""
+def screenshot(page: Page, name: str, settle: float = SETTLE) -> Path:
+    """Picture of the page in `tests/artifacts/NAME.png`."""
     ARTIFACTS.mkdir(exist_ok=True)
     page.wait_for_timeout(1e3 * settle)
     path = ARTIFACTS / f"{name}.png"

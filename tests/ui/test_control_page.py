@@ -9,10 +9,10 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Page, expect
 
 from app.simulation import circle_tracking
-from tests.support.browser import DESKTOP, PHONE, new_page, node_pose, open_page, screenshot, wait_until
+from tests.support.browser import PHONE, PageFactory, node_pose, open_page, screenshot, wait_ready, wait_until
 from tests.support.plots import Chart, chart
 from tests.support.server import RunningServer, running_deltalab
 from tests.support.widgets import button, choose, open_tab, press, set_slider, step_slider, toggle, type_into, upload
@@ -31,12 +31,11 @@ def server() -> Iterator[RunningServer]:
 
 
 @pytest.fixture(scope="module")
-def shared_page(browser: Browser, server: RunningServer) -> Iterator[Page]:
-    """One visitor for most tests: a page takes seconds to draw without a graphics processor."""
-    page = new_page(browser, DESKTOP)
+def shared_page(server: RunningServer, lasting_visit: PageFactory) -> Page:
+    """One visitor for most tests."""
+    page = lasting_visit()
     open_lab(page, server)
-    yield page
-    page.context.close()
+    return page
 
 
 @pytest.fixture
@@ -53,7 +52,12 @@ def lab(shared_page: Page) -> Page:
 
 
 def open_lab(page: Page, server: RunningServer) -> None:
-    open_page(page, server.url, [TOOL])
+    open_page(page, server.url)
+    enter_lab(page)
+
+
+def enter_lab(page: Page) -> None:
+    wait_ready(page, [TOOL])
     page.get_by_role("tab", name="Control", exact=True).wait_for()
     open_tab(page, "Control")
     wait_until(page, lambda: is_drawn(chart(page, STEP)), "step response", timeout=60)
@@ -91,9 +95,9 @@ def test_the_lab_opens_with_the_papers_motor_and_its_plots(lab: Page):
     expect(page.get_by_text("Phase margin", exact=False).first).to_be_visible()
     open_tab(page, "Frequency")
     wait_until(page, lambda: is_drawn(chart(page, "Open loop: gain")), "Bode plot")
-    screenshot(page, "control-frequency", 1.0)
+    screenshot(page, "control-frequency")
     open_tab(page, "Step")
-    screenshot(page, "control-step", 1.0)
+    screenshot(page, "control-step")
 
 
 def test_a_gain_moves_the_curve(lab: Page):
@@ -118,7 +122,7 @@ def test_a_baseline_is_kept_and_compared(lab: Page):
     wait_until(page, lambda: overshoot(page) > 0.9, "the paper's lively tuning")
     assert drawn(page, STEP).curves["baseline"] == pytest.approx(kept)
     expect(page.get_by_role("columnheader", name="baseline").first).to_be_visible()
-    screenshot(page, "control-baseline", 0.5)
+    screenshot(page, "control-baseline")
     page.get_by_role("button", name="Forget", exact=True).click()
     wait_until(page, lambda: "baseline" not in drawn(page, STEP).legend, "no baseline")
 
@@ -128,7 +132,7 @@ def test_windup_and_its_cure(lab: Page):
     choose(page, "Trap", "Windup")
     expect(page.get_by_text("the integral keeps growing")).to_be_visible()
     wait_until(page, lambda: overshoot(page) > 0.9, "windup")
-    screenshot(page, "control-windup", 0.5)
+    screenshot(page, "control-windup")
     unfold(page, "Program on the board", "Anti-windup")
     choose(page, "Anti-windup", "clamping")
     wait_until(page, lambda: overshoot(page) < 0.6, "less overshoot with clamping")
@@ -141,7 +145,7 @@ def test_disturbances_can_be_switched_on(lab: Page):
     toggle(page, "Noise")
     set_slider(page, "Noise (deg)", 0.5)
     wait_until(page, lambda: np.ptp(drawn(page, CONTROL).curves["now"][-40:]) > quiet + 5.0, "a nervous control signal")
-    screenshot(page, "control-noise", 0.5)
+    screenshot(page, "control-noise")
 
 
 def test_the_circle_runs_on_the_robot_and_can_be_scrubbed(lab: Page):
@@ -165,7 +169,7 @@ def test_the_circle_runs_on_the_robot_and_can_be_scrubbed(lab: Page):
     choose(page, "Drive", "q2")
     choose(page, "Shown", "After 5 s")
     wait_until(page, lambda: math.isnan(drawn(page, "Joints").last("q1")), "one drive only")
-    screenshot(page, "control-run", 1.0)
+    screenshot(page, "control-run")
 
 
 def tool_distance_mm(page: Page, pose: np.ndarray) -> float:
@@ -199,7 +203,7 @@ def test_the_papers_ranking_reverses(lab: Page):
     for value in ("90.94", "195.1", "2.008", "0.3386"):
         expect(page.get_by_role("cell", name=value, exact=True).first).to_be_attached(timeout=30_000)
     button(page, "Forget all runs").scroll_into_view_if_needed()
-    screenshot(page, "control-ranking", 0.5)
+    screenshot(page, "control-ranking")
 
 
 def test_a_path_out_of_reach_is_refused_with_its_reason(lab: Page):
@@ -217,7 +221,7 @@ def test_the_motor_is_identified_and_used(lab: Page, tmp_path):
     press(page, "Record and identify")
     expect(page.get_by_text("fit 98", exact=False)).to_be_visible(timeout=30_000)
     assert is_drawn(chart(page, "Output")) and is_drawn(chart(page, "Residual"))
-    screenshot(page, "control-motor", 0.5)
+    screenshot(page, "control-motor")
     with page.expect_download() as waiting:
         press(page, "Save recording as CSV")
     path = tmp_path / "mine.csv"
@@ -240,8 +244,8 @@ def test_other_robots_have_a_motor_too_and_a_reload_keeps_the_gains(page: Page, 
     wait_until(page, lambda: drawn(page, STEP).axes[1] == "Position (mm)", "millimetres")
     type_into(page, "kp", 3.25)
     wait_until(page, lambda: page.get_by_label("Tuning", exact=True).input_value() == "By hand", "own gains")
-    page.reload()
-    open_lab(page, server)
+    page.reload(wait_until="domcontentloaded")
+    enter_lab(page)
     expect(page.get_by_label("kp", exact=True)).to_have_value("3.25")
 
 
@@ -252,4 +256,4 @@ def test_on_a_phone_the_response_stays_above_the_sliders(visit, server: RunningS
     wait_until(page, lambda: overshoot(page) > 0.3, "curve that follows")
     overflow = page.evaluate("() => document.documentElement.scrollWidth - window.innerWidth")
     assert overflow <= 0, "nothing sticks out of a phone's screen"
-    screenshot(page, "control-phone", 1.0)
+    screenshot(page, "control-phone")

@@ -12,13 +12,13 @@ from urllib.request import urlopen
 import cv2
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, Locator, Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from app.drawing.exports import EXPORTS, read_points_file
 from app.drawing.samples import sample_bytes
 from app.drawing.svg_import import read_svg
 from app.robots import ROBOTS
-from tests.support.browser import DESKTOP, PHONE, new_page, node_pose, open_page, pull_gizmo, screenshot, wait_until
+from tests.support.browser import PHONE, PageFactory, node_pose, open_page, pull_gizmo, screenshot, wait_until
 from tests.support.plots import chart
 from tests.support.server import RunningServer, running_deltalab
 from tests.support.widgets import button, choose, field, open_tab, press, set_slider, settle, toggle, type_into, upload
@@ -34,12 +34,11 @@ def server() -> Iterator[RunningServer]:
 
 
 @pytest.fixture(scope="module")
-def shared_page(browser: Browser, server: RunningServer) -> Iterator[Page]:
-    """One visitor for most tests: a page takes seconds to draw without a graphics processor."""
-    page = new_page(browser, DESKTOP)
+def shared_page(server: RunningServer, lasting_visit: PageFactory) -> Page:
+    """One visitor for most tests."""
+    page = lasting_visit()
     open_draw(page, server)
-    yield page
-    page.context.close()
+    return page
 
 
 @pytest.fixture
@@ -123,7 +122,7 @@ def test_the_tab_opens_with_a_drawing_and_its_numbers(desk: Page):
     height, width = picture(page, "Drawing").shape[:2]
     assert width / height == pytest.approx(105 / 148, rel=0.02), "the picture has the sheet's shape"
     assert nodes(page, f"{SHEET}/plan"), "the plan lies on the sheet"
-    screenshot(page, "draw-first", 1.0)
+    screenshot(page, "draw-first")
 
 
 def test_a_photo_is_uploaded_and_follows_the_knobs(desk: Page, tmp_path: Path):
@@ -142,7 +141,7 @@ def test_a_photo_is_uploaded_and_follows_the_knobs(desk: Page, tmp_path: Path):
     assert not np.array_equal(before, picture(page, "Drawing"))
     set_slider(page, "Smooth (px)", 9)
     choose(page, "Aperture (px)", "5")
-    screenshot(page, "draw-knobs", 1.0)
+    screenshot(page, "draw-knobs")
 
 
 def test_the_robot_draws_pauses_lifted_and_goes_on(desk: Page):
@@ -156,13 +155,13 @@ def test_the_robot_draws_pauses_lifted_and_goes_on(desk: Page):
     standing = node_pose(page, TOOL)
     page.wait_for_timeout(400)
     assert node_pose(page, TOOL) == standing
-    screenshot(page, "draw-paused", 0.5)
+    screenshot(page, "draw-paused")
     choose(page, "Play speed", "20×")
     press(page, "Go on")
     wait_until(page, lambda: button(page, "Draw again").is_visible(), "the finished drawing", timeout=30)
     assert paper_z < -0.33
     expect(page.get_by_text("0.0 s to go, done", exact=False).first).to_be_visible()
-    screenshot(page, "draw-done", 0.5)
+    screenshot(page, "draw-done")
     choose(page, "Play speed", "1×")
 
 
@@ -200,7 +199,7 @@ def test_without_a_lift_the_paper_gets_stray_ink(desk: Page):
     assert number(page, "Stray ink") == pytest.approx(number(page, "Between strokes"), rel=0.03, abs=12)
     assert number(page, "Lifts") == 0
     ready(page)
-    screenshot(page, "draw-no-lift", 1.0)
+    screenshot(page, "draw-no-lift")
     toggle(page, "Lift the pen")
     wait_until(page, lambda: not cell(page, "Stray ink").is_visible(), "a clean drawing")
 
@@ -217,7 +216,7 @@ def test_a_laser_is_off_at_first_and_follows_the_speed(desk: Page):
     burning = power > 0
     assert power[burning] == pytest.approx(speed[burning], abs=0.5)
     assert (speed[~burning] > 20).any(), "it travels with the laser off"
-    screenshot(page, "draw-laser", 0.5)
+    screenshot(page, "draw-laser")
     toggle(page, "Laser")
     wait_until(page, lambda: chart(page, "Laser power") is None, "no laser")
 
@@ -249,7 +248,7 @@ def test_a_sheet_out_of_reach_is_shown_and_refused(desk: Page):
     expect(button(page, "Draw")).to_be_disabled()
     red = picture(page, "Drawing").astype(int) - np.array([17, 51, 204])  # BGR
     assert (np.abs(red).max(axis=-1) < 40).sum() > 20, "what is out of reach is red"
-    screenshot(page, "draw-out-of-reach", 1.0)
+    screenshot(page, "draw-out-of-reach")
     press(page, "Put the sheet back")
     ready(page)
     expect(page.get_by_text("is beyond the robot", exact=False).first).to_be_hidden()
@@ -265,7 +264,7 @@ def test_the_sheet_is_moved_by_its_handle(desk: Page):
     assert before is not None and after is not None
     assert after.position[0] > before.position[0] + 0.005
     assert after.position[1:] == pytest.approx(before.position[1:], abs=1e-6)
-    screenshot(page, "draw-placing", 0.5)
+    screenshot(page, "draw-placing")
     toggle(page, "Move the sheet")
 
 
@@ -278,7 +277,7 @@ def test_text_becomes_strokes(desk: Page):
     settle(page)
     wait_until(page, lambda: cell(page, "Mode").inner_text() == "Strokes as they are", "letters")
     assert 5 <= number(page, "Strokes") <= 12
-    screenshot(page, "draw-text", 1.0)
+    screenshot(page, "draw-text")
 
 
 def test_a_stroke_by_hand_is_drawn_where_it_was_put(desk: Page):
@@ -299,7 +298,7 @@ def test_a_stroke_by_hand_is_drawn_where_it_was_put(desk: Page):
     assert number(page, "Ink") == pytest.approx(105 / 2, abs=2.0)
     (stroke,) = read_svg(saved(page, EXPORTS[".svg"].title))
     assert stroke[:, 1].mean() == pytest.approx(148 / 4, abs=1.0), "a quarter from the top"
-    screenshot(page, "draw-by-hand", 0.5)
+    screenshot(page, "draw-by-hand")
 
 
 def test_bad_files_are_refused_and_the_drawing_stays(desk: Page, tmp_path: Path):
@@ -352,7 +351,7 @@ def test_comparisons(desk: Page):
     press(page, "Compare with the arm")
     expect(page.get_by_text("the delta is", exact=False).first).to_be_visible(timeout=20_000)
     expect(page.get_by_text("not reproduced", exact=False).first).to_be_visible()
-    screenshot(page, "draw-compare", 0.5)
+    screenshot(page, "draw-compare")
 
 
 def points_of(page: Page) -> int:
@@ -369,7 +368,7 @@ def test_another_robot_draws_it_too(desk: Page):
     choose(page, "Play speed", "20×")
     press(page, "Draw")
     wait_until(page, lambda: button(page, "Draw again").is_visible(), "the finished drawing", timeout=60)
-    screenshot(page, "draw-fivebar", 0.5)
+    screenshot(page, "draw-fivebar")
     open_tab(page, "Robot")
     choose(page, "Robot", ROBOTS["delta3"].build.title)
     open_tab(page, "Draw")
@@ -382,4 +381,4 @@ def test_on_a_phone_the_drawing_stands_above_the_settings(visit, server: Running
     expect(button(page, "Draw").first).to_be_in_viewport()
     overflow = page.evaluate("() => document.documentElement.scrollWidth - window.innerWidth")
     assert overflow <= 0, "nothing sticks out of a phone's screen"
-    screenshot(page, "draw-phone", 1.0)
+    screenshot(page, "draw-phone")

@@ -18,6 +18,7 @@ from tests.support.taps import MARK, tap
 from tests.support.wire import run_async
 
 GIZMO, TOOL, HANDLE, SHEET = "/robot/gizmo", "/robot/tool", "/robot/sheet_handle", "/robot/sheet"
+pytestmark = pytest.mark.long
 
 
 @pytest.fixture(scope="module")

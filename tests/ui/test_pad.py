@@ -7,10 +7,10 @@ from collections.abc import Iterator
 import cv2
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Page, expect
 
 from app.ui.drawing.pad_strokes import MAX_STROKES
-from tests.support.browser import DESKTOP, PHONE, PageFactory, new_page, screenshot, wait_until
+from tests.support.browser import PHONE, PageFactory, screenshot, wait_until
 from tests.support.pad_page import (
     PEN,
     SHEET,
@@ -40,14 +40,8 @@ def lab() -> Iterator[PadServer]:
 
 
 @pytest.fixture(scope="module")
-def shared_desk(browser: Browser, lab: PadServer) -> Iterator[Page]:
-    errors: list[str] = []
-    page = new_page(browser, DESKTOP)
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    open_pad(page, lab)
-    yield page
-    page.context.close()
-    assert not errors, f"script errors on the page: {errors}"
+def shared_desk(lab: PadServer, lasting_visit: PageFactory) -> Page:
+    return open_pad(lasting_visit(), lab)
 
 
 @pytest.fixture
@@ -82,7 +76,7 @@ def test_a_mouse_draws(desk: Page, lab: PadServer):
     (stroke,) = lab.heard[-1]
     assert_follows(stroke, ZIGZAG)
     assert all(ink(desk, corner) for corner in ZIGZAG) and not ink(desk, (50.0, 50.0))
-    screenshot(desk, "pad-light", 0.5)
+    screenshot(desk, "pad-light")
 
 
 def test_quick_strokes_all_arrive_in_their_order(desk: Page, lab: PadServer):
@@ -221,7 +215,7 @@ def test_a_finger_draws_and_does_not_scroll(visit: PageFactory, lab: PadServer):
     wait_until(page, lambda: lab.heard, "a stroke")
     assert_follows(lab.heard[-1][0], path)
     np.testing.assert_allclose(on_page(page, [(0.0, 0.0)]), before, atol=0.01)
-    screenshot(page, "pad-phone", 0.5)
+    screenshot(page, "pad-phone")
     draw_with_finger(page, [(80.0, 40.0), (80.0, 90.0)])
     draw_with_finger(page, [(80.0, 0.0), (80.0, 90.0)])
     wait_until(

@@ -12,11 +12,14 @@ from playwright.sync_api import Page, expect
 from app.robots import ROBOTS, make_robot
 from tests.support.browser import (
     PHONE,
+    SHARPNESS,
+    PageFactory,
     node_pose,
     open_page,
     pull_gizmo,
     screenshot,
     turn_gizmo,
+    wait_ready,
     wait_still,
     wait_until,
 )
@@ -34,8 +37,29 @@ def server() -> Iterator[RunningServer]:
         yield running
 
 
-def visit_lab(page: Page, server: RunningServer) -> None:
-    open_page(page, server.url, [GIZMO, TOOL])
+@pytest.fixture(scope="module")
+def shared_page(server: RunningServer, lasting_visit: PageFactory) -> Page:
+    """One visitor for the tests that change no more than the robot and its pose."""
+    page = lasting_visit()
+    visit_lab(page, server)
+    return page
+
+
+@pytest.fixture
+def lab(shared_page: Page) -> Page:
+    """The Par4 delta at home."""
+    press(shared_page, "Home")
+    choose_robot(shared_page, "par4")
+    return shared_page
+
+
+def visit_lab(page: Page, server: RunningServer, sharpness: float | None = SHARPNESS) -> None:
+    open_page(page, server.url, sharpness=sharpness)
+    wait_for_lab(page)
+
+
+def wait_for_lab(page: Page) -> None:
+    wait_ready(page, [GIZMO, TOOL])
     expect(page.get_by_role("combobox", name="Robot")).to_be_visible(timeout=20_000)
 
 
@@ -68,16 +92,16 @@ def pull(page: Page, axis: tuple[float, float, float], pixels: float, touch: boo
 
 
 def choose_robot(page: Page, name: str) -> None:
-    """Pick a robot and wait until it is there."""
+    """Pick a robot and wait until it is there, and its fields: what is typed into the old ones is lost."""
     choose(page, "Robot", ROBOTS[name].title)
     home = [1e3 * value for value in make_robot(name).home[:3]]
-    wait_until(page, lambda: math.dist(tool_mm(page), home) < 0.01, f"{name} at home")
+    wait_until(page, lambda: math.dist(tool_mm(page), home) < 0.01 and agree(page), f"{name} at home")
     wait_still(page, GIZMO)
 
 
 @pytest.mark.parametrize("name", ROBOTS)
-def test_each_robot_comes_alive(page: Page, server: RunningServer, name: str):
-    visit_lab(page, server)
+def test_each_robot_comes_alive(lab: Page, name: str):
+    page = lab
     if name != "par4":
         choose_robot(page, name)
     home = [1e3 * value for value in make_robot(name).home[:3]]
@@ -88,8 +112,8 @@ def test_each_robot_comes_alive(page: Page, server: RunningServer, name: str):
     screenshot(page, f"robot-{name}")
 
 
-def test_a_drag_out_of_reach_says_which_limit_and_returns_the_gizmo(page: Page, server: RunningServer):
-    visit_lab(page, server)
+def test_a_drag_out_of_reach_says_which_limit_and_returns_the_gizmo(lab: Page):
+    page = lab
     pull(page, (1.0, 0.0, 0.0), 330)
     expect(page.get_by_text(re.compile(r"Leg \d: upper arm at|leg \d is \d+ mm too short")).first).to_be_visible()
     stood = tool_mm(page)
@@ -102,8 +126,8 @@ def test_a_drag_out_of_reach_says_which_limit_and_returns_the_gizmo(page: Page, 
     screenshot(page, "out-of-reach")
 
 
-def test_the_ring_turns_the_platform_and_the_tool_twice_as_far(page: Page, server: RunningServer):
-    visit_lab(page, server)
+def test_the_ring_turns_the_platform_and_the_tool_twice_as_far(lab: Page):
+    page = lab
     wait_still(page, GIZMO)
     turn_gizmo(page, "/robot/platform/turn", degrees=20)
     wait_until(page, lambda: abs(float(field(page, "θ (deg)").input_value())) > 5, "a turned platform")
@@ -113,8 +137,8 @@ def test_the_ring_turns_the_platform_and_the_tool_twice_as_far(page: Page, serve
     assert 2 * math.atan2(pose.wxyz[3], pose.wxyz[0]) == pytest.approx(2 * theta, abs=0.005)
 
 
-def test_a_typed_pose_moves_robot_gizmo_and_sliders(page: Page, server: RunningServer):
-    visit_lab(page, server)
+def test_a_typed_pose_moves_robot_gizmo_and_sliders(lab: Page):
+    page = lab
     type_into(page, "x (mm)", 60)
     wait_until(page, lambda: abs(tool_mm(page)[0] - 60) < 0.01, "tool at the typed x")
     gizmo = node_pose(page, GIZMO)
@@ -128,8 +152,8 @@ def test_a_typed_pose_moves_robot_gizmo_and_sliders(page: Page, server: RunningS
     wait_until(page, lambda: agree(page) and shown_mm(page)[2] > -600, "pose brought back into reach")
 
 
-def test_a_joint_slider_moves_the_tool_and_refuses_the_impossible(page: Page, server: RunningServer):
-    visit_lab(page, server)
+def test_a_joint_slider_moves_the_tool_and_refuses_the_impossible(lab: Page):
+    page = lab
     choose_robot(page, "delta3")
     set_slider(page, "q1 (deg)", 30)
     pose = make_robot("delta3").forward([math.radians(30), *make_robot("delta3").solve(0.0, 0.0, -0.33)[1:]])
@@ -159,9 +183,8 @@ def test_a_changed_geometry_changes_the_machine(page: Page, server: RunningServe
     screenshot(page, "geometry")
 
 
-def test_two_browsers_are_independent(visit, server: RunningServer):
-    one, two = visit(), visit()
-    visit_lab(one, server)
+def test_two_browsers_are_independent(lab: Page, page: Page, server: RunningServer):
+    one, two = lab, page
     visit_lab(two, server)
     choose_robot(one, "linear")
     type_into(one, "x (mm)", 40)
@@ -171,12 +194,13 @@ def test_two_browsers_are_independent(visit, server: RunningServer):
 
 
 def test_a_reload_keeps_the_students_robot(page: Page, server: RunningServer):
-    visit_lab(page, server)
+    """At the address that a student opens, and as sharp."""
+    visit_lab(page, server, sharpness=None)
     choose_robot(page, "fivebar")
     type_into(page, "y (mm)", 350)
     wait_until(page, lambda: abs(tool_mm(page)[1] - 350) < 0.01, "typed pose")
-    page.reload()
-    visit_lab(page, server)
+    page.reload(wait_until="domcontentloaded")
+    wait_for_lab(page)
     assert field(page, "Robot").input_value() == ROBOTS["fivebar"].title
     wait_until(page, lambda: abs(tool_mm(page)[1] - 350) < 0.01, "the same pose again")
 

@@ -8,6 +8,7 @@ from app.ui.drawing.surroundings import Surroundings
 from app.ui.tab_bell import on_tab_opened
 
 if TYPE_CHECKING:
+    from app.ui.drawing.jobs import Sketch
     from app.ui.drawing.room import DrawingRoom
 
 LABEL = "Draw"
@@ -20,6 +21,13 @@ class DrawingDoor:
         self._surroundings = surroundings
         self._room: DrawingRoom | None = None
         on_tab_opened(surroundings.client, LABEL, self._open)
+
+    @property
+    def drawing(self) -> Sketch | None:
+        """What is shown, if the robot has a way to draw it."""
+        if self._room is None or self._room.desk.plan is None:
+            return None
+        return self._room.desk.sketch
 
     def close(self) -> None:
         if self._room is not None:

@@ -82,9 +82,13 @@ class DrawingPlayer:
     @property
     def drawn(self) -> tuple[int, float, int]:
         """The stroke being drawn (-1 in hops), how much of it, m, and how many are done: for `InkView.show`."""
+        return self.drawn_at(self.time_s)
+
+    def drawn_at(self, time_s: float) -> tuple[int, float, int]:
+        """The same at another time."""
         if self._track is None:
             return -1, 0.0, 0
-        k = min(int(np.searchsorted(self._track.t, self.time_s)), len(self._track.t) - 1)
+        k = min(int(np.searchsorted(self._track.t, time_s)), len(self._track.t) - 1)
         return int(self._track.stroke[k]), 1e-3 * float(self._track.along_mm[k]), int(self._track.done[k])
 
     def load(self, track: Track | None, speed: float | None = None) -> None:

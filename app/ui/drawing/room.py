@@ -18,6 +18,7 @@ from app.ui.panels.drawing.look_panel import LookPanel
 from app.ui.panels.drawing.pen_panel import PenPanel
 from app.ui.panels.drawing.play_panel import PlayPanel
 from app.ui.panels.drawing.preview_panel import PreviewPanel
+from app.ui.panels.drawing.run_panel import RunPanel
 from app.ui.panels.drawing.sheet_panel import SheetPanel
 from app.ui.panels.drawing.source_panel import SourcePanel
 from app.ui.playback import Playback
@@ -31,8 +32,9 @@ class DrawingRoom:
     """Built when the tab is opened for the first time."""
 
     def __init__(self, surroundings: Surroundings) -> None:
-        client, session, gizmo, stage, self._tab, self._bench, self._quick, self._slow = surroundings
+        client, session, gizmo, stage, self._tab, self._bench, access, self._quick, self._slow = surroundings
         self._client = client
+        self._access = access
         self.desk = DrawingDesk(session, self._quick(), self._slow(None), self._quick(), self._slow(None))
         self._playback = Playback(session)
         self._player = DrawingPlayer(session, self._playback)
@@ -72,7 +74,7 @@ class DrawingRoom:
         with self._tab:
             if self._bench.on_a_phone:
                 PreviewPanel(client.gui, desk, height=PHONE_PICTURE, table=False)
-                self._plays.append(PlayPanel(client.gui, desk, self._player))
+                self._add_playing()
             SourcePanel(client, desk)
             LookPanel(client.gui, desk)
             SheetPanel(client.gui, desk, self._scene.placing, self._scene.look)
@@ -83,9 +85,18 @@ class DrawingRoom:
         with self._panel.add_tab("Drawing", viser.Icon.PENCIL):
             PreviewPanel(client.gui, desk)
             if not self._bench.on_a_phone:
-                self._plays.append(PlayPanel(client.gui, desk, self._player))
+                self._add_playing()
             LaserPanel(client.gui, desk)
             ExportPanel(client, desk, self._slow(None))
+
+    def _add_playing(self) -> None:
+        self._plays.append(PlayPanel(self._client.gui, self.desk, self._player))
+        on_robot = RunPanel(self._client, self.desk, self._slow(lambda: on_robot.failed()), self._show_progress)
+        self._access.when_needed(on_robot.furnish)
+
+    def _show_progress(self, share: float) -> None:
+        """Ink as far as the robot on the table has come."""
+        self._scene.show_ink(share * self._player.duration_s)
 
     def _add_comparisons(self) -> None:
         with self._panel.add_tab("Compare", viser.Icon.SCALE):

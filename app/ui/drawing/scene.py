@@ -66,6 +66,10 @@ class DrawingScene:
         self._sheet.placing(on)
         self._show_handles()
 
+    def show_ink(self, time_s: float) -> None:
+        """What is drawn at a time of the plan: for a robot that is not ours to play."""
+        self._ink.show(*self._player.drawn_at(time_s))
+
     def close(self) -> None:
         self._ink.close()
 

@@ -10,6 +10,7 @@ import viser
 from app.ui.bench import Bench
 from app.ui.compute import Worker
 from app.ui.gizmo import Gizmo
+from app.ui.hardware.access import RobotAccess
 from app.ui.session import Session
 from app.ui.stage import Stage
 
@@ -23,6 +24,8 @@ class Surroundings(NamedTuple):
     stage: Stage
     tab: viser.GuiTabHandle
     bench: Bench
+    access: RobotAccess
+    """To the robot on the table."""
     quick: Callable[[], Worker]
     """Makes a line of quick work."""
     slow: Callable[[Callable[[], None] | None], Worker]

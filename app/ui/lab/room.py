@@ -7,11 +7,16 @@ from collections.abc import Callable
 
 import viser
 
+from app.control.motor import Motor
+from app.simulation import Run
 from app.ui.bench import Bench
 from app.ui.compute import Worker
+from app.ui.hardware.access import RobotAccess
 from app.ui.lab.desk import ControlDesk
 from app.ui.lab.run_book import RunBook
+from app.ui.lab.settings import changed, default_settings
 from app.ui.lab.traps import TRAPS
+from app.ui.panels.lab.board_panel import BoardPanel
 from app.ui.panels.lab.control_panel import ControlPanel
 from app.ui.panels.lab.motor_panel import MotorPanel
 from app.ui.panels.lab.run_panel import RunPanel
@@ -38,6 +43,7 @@ class ControlRoom:
         quick: Worker,
         slow: Callable[[Callable[[], None] | None], Worker],
         tell: Callable[[str], None],
+        access: RobotAccess,
     ) -> None:
         self._client = client
         self._session = session
@@ -46,10 +52,32 @@ class ControlRoom:
         self._quick = quick
         self._slow = slow
         self._tell = tell
+        self._access = access
         self._runs: RunPanel | None = None
         self._panel: viser.PanelHandle | None = None
+        self._desk: ControlDesk | None = None
+        self._book: RunBook | None = None
         self._building = self._closed = False
         on_tab_opened(client, "Control", self._open)
+
+    @property
+    def run(self) -> Run | None:
+        """The run that is shown."""
+        return None if self._book is None else self._book.run
+
+    def use_motor(self, robot: str, motor: Motor, origin: str) -> str:
+        """Take an identified motor, now or when the tab is opened; returns why not, or nothing."""
+        session = self._session
+        if robot != session.robot_name:
+            return "The page shows another robot than the one with this motor: show that one first."
+        if self._desk is not None:
+            self._desk.change(motor=motor, motor_origin=origin)
+        else:
+            settings = session.control or default_settings(robot)
+            if settings.robot != robot:
+                settings = default_settings(robot)
+            session.control = changed(settings, motor=motor, motor_origin=origin)
+        return ""
 
     def close(self) -> None:
         self._closed = True
@@ -67,8 +95,8 @@ class ControlRoom:
         """Panel by panel: others get their turn between them."""
         client, session = self._client, self._session
         client.gui.add_html(PLOT_STYLE)
-        desk = ControlDesk(session, self._quick)
-        book = RunBook(session, self._slow(lambda: book.failed()), self._tell)
+        desk = self._desk = ControlDesk(session, self._quick)
+        book = self._book = RunBook(session, self._slow(lambda: book.failed()), self._tell)
         panel = self._bench.add_panel()
         for furnish in (
             lambda: self._add_settings(desk, book),
@@ -91,7 +119,9 @@ class ControlRoom:
         with self._tab:
             if self._bench.on_a_phone:
                 ResponsePlot(client.gui, desk, PHONE_PLOT_PX)
+            board = BoardPanel(client, desk, self._slow(lambda: board.failed()))
             ControlPanel(client.gui, desk, lambda trap: book.request(*variants(desk.settings, TRAPS[trap].runs)))
+        self._access.when_needed(board.furnish)
 
     def _add_plots(self, panel: viser.PanelHandle, desk: ControlDesk) -> None:
         with panel.add_tab("Step", viser.Icon.CHART_LINE):

@@ -1,0 +1,1 @@
+"""The firmware, and how it is built."""

@@ -1,0 +1,1 @@
+"""The robot on the table, as the page shows and drives it."""

@@ -1,0 +1,1 @@
+"""Emulated microcontrollers: test tools, never part of the package."""

@@ -1,0 +1,1 @@
+"""The STM32F407 in QEMU, and its drivers on a desktop."""

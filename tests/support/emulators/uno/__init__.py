@@ -1,0 +1,1 @@
+"""The Arduino Uno's firmware in simavr: a test tool, for simavr is under the GPL."""
