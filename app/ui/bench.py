@@ -6,6 +6,7 @@ from functools import cached_property
 
 import viser
 
+from app.ui.picture_width import PictureWidth
 from app.ui.session import Signal
 
 WIDTH = 420
@@ -21,6 +22,7 @@ class Bench:
 
     def __init__(self, client: viser.ClientHandle) -> None:
         self._client = client
+        self._width = PictureWidth(client)
         self._beside: list[viser.PanelHandle] = []
         self.shown: Signal[viser.PanelHandle] = Signal()
         """Another lab is in use."""
@@ -28,7 +30,7 @@ class Bench:
     @cached_property
     def _picture_px(self) -> int:
         """Width of the robot's picture before the first side panel came."""
-        return self._client.camera.image_width
+        return self._width.px
 
     @property
     def on_a_phone(self) -> bool:

@@ -31,7 +31,13 @@ from app.ui.state import Memory
 from app.ui.viser_adapter import NodeStream, browser_id, run_javascript
 from app.ui.workspace_view import WorkspaceCache, WorkspaceView
 
-PANEL_WIDTH = 320
+PANEL_WIDTH = 330
+NARROW_TABS = """
+const style = document.createElement("style");
+style.textContent = '[role="tab"] { padding: 0.7em 0.6em !important; } [role="tab"] :has(> svg) { display: none; }';
+document.head.append(style);
+"""
+"""Five tabs in one row have no room for pictures."""
 
 
 class Room:
@@ -61,7 +67,7 @@ class Room:
         """Build scene and panels, the robot first; others get their turn between the steps."""
         client, session = self._client, self.session
         stream = NodeStream(client)
-        run_javascript(client, 'document.title = "Delta Lab"')
+        run_javascript(client, 'document.title = "Delta Lab"' + NARROW_TABS)
         stage = Stage(client, session)
         RobotView(client, session, stream, self._shapes, self._worker())
         gizmo = Gizmo(client, session, stream)

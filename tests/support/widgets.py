@@ -25,9 +25,13 @@ def field(page: Page, label: str) -> Locator:
 
 
 def type_into(page: Page, label: str, value: str | float) -> None:
-    """Replace what a number or text field holds, and leave the field."""
+    """Replace what a number or text field holds, and leave the field.
+
+    Key by key: a number field that the server has changed meanwhile takes no notice of Playwright's `fill`.
+    """
     box = field(page, label)
-    box.fill(str(value))
+    box.press("ControlOrMeta+a")
+    box.press_sequentially(str(value))
     box.press("Tab")
     settle(page)
 

@@ -92,7 +92,7 @@ def pull(page: Page, axis: tuple[float, float, float], pixels: float, touch: boo
 
 
 def choose_robot(page: Page, name: str) -> None:
-    """Pick a robot and wait until it is there, and its fields: what is typed into the old ones is lost."""
+    """Pick a robot and wait until it is there, and the panel in step with it."""
     choose(page, "Robot", ROBOTS[name].title)
     home = [1e3 * value for value in make_robot(name).home[:3]]
     wait_until(page, lambda: math.dist(tool_mm(page), home) < 0.01 and agree(page), f"{name} at home")

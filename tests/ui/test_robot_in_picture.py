@@ -164,7 +164,6 @@ def test_the_picture_follows_the_robot_if_asked_to(lab: RobotLab):
             start = commanded(lab)
             await one.until(lambda: "Moves y by +10 mm" in one.said, "buttons of the tool")
             await one.press("Jog", "pose:1:+")
-            for _ in range(20): await asyncio.sleep(.1); print(one.client.positions[GIZMO], commanded(lab), start, lab.status.activity, one.told)
             await one.until(lambda: abs(one.client.positions[GIZMO][1] - start[1] - 0.01) < 1e-4, "gizmo 10 mm aside")
             assert not ghosts(one)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.link.protocol.codes import Flag, State
+from app.link.protocol.codes import State
 from app.link.status import LinkStatus
 from app.ui.gizmo import Gizmo
 from app.ui.hardware.desk import HardwareDesk
@@ -37,12 +37,10 @@ def is_moving(status: LinkStatus) -> bool:
     return status.activity not in ("idle", "paused") or status.telemetry.state in (State.MOVING, State.HOMING)
 
 
-def stand_as_commanded(desk: HardwareDesk, status: LinkStatus) -> bool:
-    """Put the robot in the picture where the board's set-point is; returns whether that is known."""
-    session, telemetry, pose = desk.session, status.telemetry, status.commanded_pose
-    if telemetry is None or pose is None or not desk.shows_it or Flag.HOMED not in telemetry.flags:
-        return False
-    joints = telemetry.setpoint[: len(session.robot.joint_names)]
-    if max(abs(a - b) for a, b in zip(joints, session.stance.joints, strict=True)) > NEAR:
-        session.replay(pose, joints)
-    return True
+def stand_as_commanded(desk: HardwareDesk, status: LinkStatus) -> None:
+    """Put the robot in the picture where the board's set-point is, if that is known."""
+    session, place = desk.session, desk.workshop.whereabouts.commanded(status)
+    if place is None or not desk.shows_it:
+        return
+    if max(abs(a - b) for a, b in zip(place.joints, session.stance.joints, strict=True)) > NEAR:
+        session.replay(*place)

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 import viser
 
-from app.link.protocol.codes import Flag
 from app.link.status import LinkStatus
 from app.robots.parts import Machine, Part, machine_of
 from app.ui import theme
 from app.ui.ghost_nodes import GhostNodes
 from app.ui.hardware.desk import HardwareDesk
+from app.ui.hardware.whereabouts import Place
 from app.ui.shape_cache import ShapeCache
 
 ROOT = "/robot/measured"
@@ -36,17 +36,24 @@ class RobotGhost:
         desk.tick.connect(self._follow)
 
     def _follow(self, status: LinkStatus) -> None:
-        joints, pose = measured(self._desk, status), status.measured_pose
-        if joints is None or pose is None or not self._is_apart(joints):
+        place = self._place(status)
+        if place is None or not self._is_apart(place.joints):
             self._forget()
             return
+        joints = place.joints
         if self._nodes.shown and max(abs(a - b) for a, b in zip(joints, self._joints, strict=True)) < MOVED:
             return
         if self._machine is None:
             self._machine = machine_of(self._desk.session.robot)
         self._joints = joints
-        self._nodes.show(self._machine, [(pose, joints)])
+        self._nodes.show(self._machine, [place])
         self._client.flush()
+
+    def _place(self, status: LinkStatus) -> Place | None:
+        """Where the robot is; None where that is not wanted, not known, or another robot's."""
+        if not self._desk.session.view.measured or not self._desk.shows_it:
+            return None
+        return self._desk.workshop.whereabouts.measured(status)
 
     def _is_apart(self, joints: Sequence[float]) -> bool:
         robot, stance = self._desk.session.robot, self._desk.session.stance
@@ -58,14 +65,6 @@ class RobotGhost:
         if self._nodes.shown:
             self._nodes.clear()
             self._client.flush()
-
-
-def measured(desk: HardwareDesk, status: LinkStatus) -> Sequence[float] | None:
-    """The measured joints, rad or m; None where they are not wanted, not known, or of another robot."""
-    telemetry, robot = status.telemetry, desk.session.robot
-    if telemetry is None or not desk.session.view.measured or not desk.shows_it or Flag.HOMED not in telemetry.flags:
-        return None
-    return telemetry.position[: len(robot.joint_names)]
 
 
 def _paint(part: Part, leg: int | None) -> theme.Rgb:

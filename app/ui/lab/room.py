@@ -116,11 +116,17 @@ class ControlRoom:
 
     def _add_settings(self, desk: ControlDesk, book: RunBook) -> None:
         client = self._client
+
+        def run_all(trap: str) -> None:
+            book.request(*variants(desk.settings, TRAPS[trap].runs))
+
         with self._tab:
             if self._bench.on_a_phone:
                 ResponsePlot(client.gui, desk, PHONE_PLOT_PX)
-            board = BoardPanel(client, desk, self._slow(lambda: board.failed()))
-            ControlPanel(client.gui, desk, lambda trap: book.request(*variants(desk.settings, TRAPS[trap].runs)))
+            ControlPanel(client.gui, desk, run_all, lambda: self._add_board(desk))
+
+    def _add_board(self, desk: ControlDesk) -> None:
+        board = BoardPanel(self._client, desk, self._slow(lambda: board.failed()))
         self._access.when_needed(board.furnish)
 
     def _add_plots(self, panel: viser.PanelHandle, desk: ControlDesk) -> None:

@@ -21,12 +21,19 @@ NO_TRAP = "Choose one …"
 class ControlPanel:
     """Gains, program, motor, and the classic traps."""
 
-    def __init__(self, gui: viser.GuiApi, desk: ControlDesk, run_all: Callable[[str], None]) -> None:
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        desk: ControlDesk,
+        run_all: Callable[[str], None],
+        below_gains: Callable[[], None] = lambda: None,
+    ) -> None:
         self._desk = desk
         self._run_all = run_all
         gui.add_html(small("The other panel has the plots, runs on the robot, and a test of the motor."))
         ExperimentPanel(gui, desk)
         GainsPanel(gui, desk)
+        below_gains()
         self._add_baseline(gui)
         ProgramPanel(gui, desk)
         PlantPanel(gui, desk)
