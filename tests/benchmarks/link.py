@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import statistics
 import subprocess
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
@@ -106,13 +107,23 @@ def _measure(title: str, port: str, options: Options, joints: Callable[[], list[
 @contextmanager
 def _homed(port: str) -> Iterator[RobotLink]:
     link = RobotLink(open_port=lambda name: _Timed(open_transport(name)))
+    over = threading.Event()
+    living = threading.Thread(target=_live, args=(link, over), daemon=True)
     try:
         link.connect(port).result(8.0)
         link.request(ANN).result(2.0)
+        living.start()
         _make_ready(link)
         yield link
     finally:
+        over.set()
         link.close()
+
+
+def _live(link: RobotLink, over: threading.Event) -> None:
+    """Signs of life, as of a page."""
+    while not over.wait(1.0):
+        link.alive(ANN)
 
 
 def _make_ready(link: RobotLink) -> None:
