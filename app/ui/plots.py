@@ -135,12 +135,15 @@ def _series(curve: Curve, absent: bool) -> uplot.Series:
 
 
 def _extent(curves: Sequence[Array]) -> Array:
-    """(k,) that spans every finite value, up and down in turn."""
+    """(k,) that spans every finite value, up and down in turn. What is flat lies in the middle: of a flat zero, uPlot
+    would make 0 to 100."""
     extent = np.zeros(len(curves[0]))
     finite = np.concatenate(curves)
     finite = finite[np.isfinite(finite)]
     if finite.size:
-        extent[0::2], extent[1::2] = finite.min(), finite.max()
+        low, high = finite.min(), finite.max()
+        room = (0.1 * abs(low) or 1.0) if low == high else 0.0
+        extent[0::2], extent[1::2] = low - room, high + room
     return extent
 
 
