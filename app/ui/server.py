@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import gc
 import multiprocessing
 import os
@@ -9,6 +10,7 @@ import signal
 import sys
 import threading
 import webbrowser
+from collections.abc import Callable, Iterator
 
 import viser
 
@@ -68,19 +70,30 @@ class Lab:
             process.kill()
         self._pools.shutdown()
 
-    def warm_up(self) -> None:
-        """Start the workers and build the other robots' shapes while nobody waits for them."""
-        self._pools.quick.submit(warm_up_control)
+    def warm_up(self, stop: threading.Event) -> None:
+        """Start the workers and load what tabs need while nobody waits for it, until `stop`."""
+        try:
+            for step in self._warm_up_steps():
+                if stop.is_set():
+                    return
+                step()
+        except RuntimeError:
+            if not stop.is_set():  # the workers were closed in the middle of a step
+                raise
+
+    def _warm_up_steps(self) -> Iterator[Callable[[], object]]:
+        """The other robots' shapes come last; then what the start has made stays, and the garbage collector need not
+        walk through it during drags."""
+        yield lambda: self._pools.quick.submit(warm_up_control)
         for pool in self._pools:
-            pool.submit(warm_up_worker)
-        warm_up_server()
-        self.workshop.warm_up()
-        self._pools.slow.submit(warm_up)
+            yield functools.partial(pool.submit, warm_up_worker)
+        yield warm_up_server
+        yield self.workshop.warm_up
+        yield lambda: self._pools.slow.submit(warm_up)
         for name in ROBOTS:
-            self._shapes.learn(build_robot(name, {}))
-        # What the start has made stays: the garbage collector need not walk through it during drags.
-        gc.collect()
-        gc.freeze()
+            yield lambda name=name: self._shapes.learn(build_robot(name, {}))
+        yield gc.collect
+        yield gc.freeze
 
     async def _welcome(self, client: viser.ClientHandle) -> None:
         memory = self._memory_of(browser_id(client))
@@ -118,7 +131,8 @@ def serve(options: ServeOptions) -> None:
         webbrowser.open(lab.url)
     try:
         if not stop.wait(WARM_UP_AFTER_S):
-            lab.warm_up()
+            # on another thread: Ctrl-C is heeded at once
+            threading.Thread(target=lab.warm_up, args=(stop,), name="warm-up", daemon=True).start()
             stop.wait()
     finally:
         lab.close()
