@@ -27,11 +27,12 @@ def field(page: Page, label: str) -> Locator:
 def type_into(page: Page, label: str, value: str | float) -> None:
     """Replace what a number or text field holds, and leave the field.
 
-    Key by key: a number field that the server has changed meanwhile takes no notice of Playwright's `fill`.
+    As if pasted: a number field that the server has changed meanwhile takes no notice of Playwright's `fill`, and
+    between two keys the server may put its own number there.
     """
     box = field(page, label)
     box.press("ControlOrMeta+a")
-    box.press_sequentially(str(value))
+    page.keyboard.insert_text(str(value))
     box.press("Tab")
     settle(page)
 
