@@ -2,24 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
-
-import numpy as np
-
 from app.link.pilot import Pilot
 from app.link.protocol.messages import Telemetry
 from app.link.situation import LATCHED, describe_state
 from app.link.status import Activity, LinkStatus
-from app.robots import Robot
 
 NOTICED = 1e-4
 """A joint that moved less (rad or m) looks as before."""
-
-
-POSE_S = 0.035
-"""Poses cost up to a millisecond: they are computed for every second telemetry."""
-
-Pose: TypeAlias = tuple[float, ...] | None
 
 
 class Camera:
@@ -28,15 +17,12 @@ class Camera:
     def __init__(self, pilot: Pilot) -> None:
         self._pilot = pilot
         self._telemetry: Telemetry | None = None
-        self._poses: tuple[Pose, Pose] = (None, None)
-        self._posed: Telemetry | None = None
-        self._posed_s = 0.0
         self._seen: tuple[object, ...] = ()
         self._revision = 0
 
     def take(self, now: float) -> LinkStatus:
         pilot, connection = self._pilot, self._pilot.connection
-        self._update_poses(now)
+        self._telemetry = pilot.telemetry
         activity: Activity = "test" if pilot.trial is not None else pilot.mover.activity
         course = pilot.mover.course
         holder, left_s = pilot.lease.holder, pilot.lease.left_s(now)
@@ -55,8 +41,6 @@ class Camera:
             identity=connection.identity,
             robot=connection.robot,
             telemetry=self._telemetry,
-            measured_pose=self._poses[0],
-            commanded_pose=self._poses[1],
             holder=holder,
             holder_left_s=left_s,
             queue=pilot.lease.queue,
@@ -80,29 +64,9 @@ class Camera:
             return describe_state(telemetry, activity)
         return self._pilot.diary.fresh(now) or describe_state(telemetry, activity)
 
-    def _update_poses(self, now: float) -> None:
-        telemetry, robot = self._pilot.telemetry, self._pilot.connection.robot
-        self._telemetry = telemetry
-        if telemetry is None or robot is None:
-            self._poses, self._posed = (None, None), None
-        elif self._posed is None or (now - self._posed_s >= POSE_S and _moved(self._posed, telemetry)):
-            self._poses, self._posed, self._posed_s = _poses(robot, telemetry), telemetry, now
-
     def _count(self, seen: tuple[object, ...]) -> None:
         if seen != self._seen:
             self._seen, self._revision = seen, self._revision + 1
-
-
-def _poses(robot: Robot, telemetry: Telemetry) -> tuple[Pose, Pose]:
-    """Measured and commanded."""
-    n = len(robot.joint_names)
-    found = robot.forward([telemetry.position[:n], telemetry.setpoint[:n]])
-    measured, commanded = (None if np.isnan(pose).any() else tuple(pose.tolist()) for pose in found)
-    return measured, commanded
-
-
-def _moved(before: Telemetry, telemetry: Telemetry) -> bool:
-    return (before.position, before.setpoint) != (telemetry.position, telemetry.setpoint)
 
 
 def _visible(telemetry: Telemetry | None) -> tuple[object, ...]:

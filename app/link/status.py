@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal, TypeAlias
+
+import numpy as np
 
 from app.link.lease import Person
 from app.link.protocol.messages import Identity, Telemetry
@@ -11,6 +14,8 @@ from app.robots import Robot
 
 Phase: TypeAlias = Literal["none", "connecting", "ready", "lost", "refused"]
 """Of the connection: none wanted, being made, made, broken and tried again by itself, given up."""
+
+Pose: TypeAlias = tuple[float, ...]
 
 Activity: TypeAlias = Literal["idle", "jog", "step", "mirror", "run", "paused", "test"]
 """What the host moves the robot for; homing is a state of the board."""
@@ -38,10 +43,6 @@ class LinkStatus:
     """With the geometry that the board has."""
     telemetry: Telemetry | None = None
     """The newest. HOMED is shown only after a homing on this connection."""
-    measured_pose: tuple[float, ...] | None = None
-    """(dof,) of the measured joints; None where they do not assemble."""
-    commanded_pose: tuple[float, ...] | None = None
-    """(dof,) of the board's set-point."""
     holder: Person | None = None
     holder_left_s: float = 0.0
     queue: tuple[Person, ...] = ()
@@ -62,3 +63,23 @@ class LinkStatus:
     """Length of the recording that runs; 0 for none."""
     revision: int = 0
     """Grows with every change that a person would notice."""
+
+    @property
+    def measured_pose(self) -> Pose | None:
+        """(dof,) of the measured joints; None where they do not assemble, or nothing is known."""
+        return self._poses[0]
+
+    @property
+    def commanded_pose(self) -> Pose | None:
+        """(dof,) of the board's set-point; None like the other."""
+        return self._poses[1]
+
+    @cached_property
+    def _poses(self) -> tuple[Pose | None, Pose | None]:
+        """Of the newest telemetry; they take a millisecond, so only when somebody asks."""
+        if self.telemetry is None or self.robot is None:
+            return None, None
+        n = len(self.robot.joint_names)
+        found = self.robot.forward([self.telemetry.position[:n], self.telemetry.setpoint[:n]])
+        measured, commanded = (None if np.isnan(pose).any() else tuple(pose.tolist()) for pose in found)
+        return measured, commanded

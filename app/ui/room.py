@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import viser
 
 from app.ui.bench import Bench
 from app.ui.compute import Pools, Worker
-from app.ui.drawing.door import DrawingDoor
 from app.ui.drawing.surroundings import Surroundings
 from app.ui.ghosts import Ghosts
 from app.ui.gizmo import Gizmo
 from app.ui.hardware.access import RobotAccess
-from app.ui.hardware.door import HardwareDoor
 from app.ui.hardware.stop_bar import StopBar
 from app.ui.hardware.surroundings import HardwareSurroundings
 from app.ui.hardware.workshop import Workshop
@@ -28,8 +27,13 @@ from app.ui.session import Session
 from app.ui.shape_cache import ShapeCache
 from app.ui.stage import Stage
 from app.ui.state import Memory
+from app.ui.tab_door import TabDoor
 from app.ui.viser_adapter import NodeStream, browser_id, run_javascript
 from app.ui.workspace_view import WorkspaceCache, WorkspaceView
+
+if TYPE_CHECKING:
+    from app.ui.drawing.room import DrawingRoom
+    from app.ui.hardware.room import HardwareRoom
 
 PANEL_WIDTH = 330
 NARROW_TABS = """
@@ -107,22 +111,30 @@ class Room:
         bench = Bench(client)
         access = RobotAccess(client, session, gizmo, self._shapes, self._workshop, self.browser)
         lab = ControlRoom(client, session, control_tab, bench, self._quick_worker(), self._worker, self._tell, access)
-        drawing = DrawingDoor(
-            Surroundings(client, session, gizmo, stage, draw_tab, bench, access, self._quick_worker, self._worker)
+        drawing = TabDoor(
+            client,
+            "Draw",
+            lambda: _drawing_room(
+                Surroundings(client, session, gizmo, stage, draw_tab, bench, access, self._quick_worker, self._worker)
+            ),
         )
-        hardware = HardwareDoor(
-            HardwareSurroundings(
-                client,
-                session,
-                hardware_tab,
-                bench,
-                access,
-                self._quick_worker,
-                self._worker,
-                drawing=lambda: drawing.drawing,
-                run=lambda: lab.run,
-                use_motor=lab.use_motor,
-            )
+        hardware = TabDoor(
+            client,
+            "Hardware",
+            lambda: _hardware_room(
+                HardwareSurroundings(
+                    client,
+                    session,
+                    hardware_tab,
+                    bench,
+                    access,
+                    self._quick_worker,
+                    self._worker,
+                    drawing=lambda: drawing.room and drawing.room.drawing,
+                    run=lambda: lab.run,
+                    use_motor=lab.use_motor,
+                )
+            ),
         )
         self._closers += [overlay.close, ghosts.close, robot_panel.close, lab.close, drawing.close, hardware.close]
         self._closers.append(access.close)
@@ -146,3 +158,15 @@ class Room:
 
     def _tell(self, sentence: str) -> None:
         self._client.add_notification("Delta Lab", sentence, color="red", auto_close_seconds=8)
+
+
+def _drawing_room(surroundings: Surroundings) -> DrawingRoom:
+    from app.ui.drawing.room import DrawingRoom  # needs OpenCV
+
+    return DrawingRoom(surroundings)
+
+
+def _hardware_room(surroundings: HardwareSurroundings) -> HardwareRoom:
+    from app.ui.hardware.room import HardwareRoom  # needs the link
+
+    return HardwareRoom(surroundings)

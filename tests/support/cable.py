@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import random
 import select
 import tempfile
 import threading
@@ -14,31 +13,12 @@ from collections import deque
 from collections.abc import Callable
 from pathlib import Path
 
+from app.link.emulated.faults import Faults, Line
 from app.link.errors import LinkLost
 from app.link.transport import SerialTransport, Transport
 
 ARRIVAL_S = 1.0
 """Within so long the system has passed bytes through a pseudo terminal; usually it is a tenth of a millisecond."""
-
-
-class Direction:
-    """Bytes on their way, and what happens to them there."""
-
-    def __init__(self, seed: int) -> None:
-        self._random = random.Random(seed)
-        self._under_way: deque[tuple[float, bytes]] = deque()
-
-    def put(self, data: bytes, cable: Cable, now: float) -> None:
-        draw = self._random.random
-        kept = bytes(byte for byte in data if draw() >= cable.loss)
-        noisy = bytes(byte ^ self._random.randrange(1, 256) if draw() < cable.noise else byte for byte in kept)
-        self._under_way.append((now + cable.delay_s, noisy))
-
-    def take(self, now: float) -> bytes:
-        arrived = b""
-        while self._under_way and self._under_way[0][0] <= now:
-            arrived += self._under_way.popleft()[1]
-        return arrived
 
 
 class Cable:
@@ -47,15 +27,15 @@ class Cable:
 
     def __init__(self, open_board: Callable[[], Transport]) -> None:
         self.open_board = open_board
-        self.noise = self.loss = self.delay_s = 0.0
-        """Share of garbled bytes, of lost bytes, and the time each way."""
+        self.faults = Faults()
+        """Of which noise, loss and delay are the cable's."""
         self.frozen = False
         """Nothing passes, and then everything at once."""
         self._folder = tempfile.TemporaryDirectory()
         self.port = str(Path(self._folder.name) / "ttyBoard")
         self._lock = threading.Lock()
         self._extra: deque[bytes] = deque()
-        self._to_board, self._to_host = Direction(1), Direction(2)
+        self._to_board, self._to_host = Line(seed=1), Line(seed=2)
         self._master: int | None = None
         self._board: Transport | None = None
         self._said = self._heard = self.passed = 0
@@ -120,16 +100,16 @@ class Cable:
 
     def _carry(self, master: int, now: float) -> None:
         assert self._board is not None
-        self._to_board.put(self._read(master), self, now)
+        self._to_board.put(self._read(master), now, self.faults)
         try:
-            outward = self._to_board.take(now) + b"".join(self._extra.popleft() for _ in range(len(self._extra)))
+            outward = self._to_board.get(now) + b"".join(self._extra.popleft() for _ in range(len(self._extra)))
             if outward:
                 self._board.write(outward)
-            self._to_host.put(self._board.read(), self, now)
+            self._to_host.put(self._board.read(), now, self.faults)
         except LinkLost:
             self._hang_up()
             return
-        inward = self._to_host.take(now)
+        inward = self._to_host.get(now)
         if inward:
             with contextlib.suppress(BlockingIOError):  # nobody reads: a real line would lose the bytes too
                 self.passed += os.write(master, inward)

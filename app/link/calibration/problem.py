@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
@@ -168,12 +168,26 @@ def make_problem(
     Raises:
         LinkError: for unknown names, tolerances or noise of 0 or less, and when nothing is looked for.
     """
-    kind, given = ROBOTS[robot].build, dict(tolerances or {})
+    given = dict(tolerances or {})
+    unknowns = _unknowns(robot, offsets, dimensions, frame, nominal or {})
+    _check_names(given, [unknown.name for unknown in unknowns], "unknown of this problem")
+    if not unknowns:
+        raise LinkError("Nothing is looked for; choose joint offsets, dimensions or the measuring frame.")
+    if not (noise_m > 0.0 and angle_noise > 0.0 and all(value > 0.0 for value in given.values())):
+        raise LinkError("Tolerances and the accuracy of the measurements must be above 0.")
+    chosen = [replace(unknown, tolerance=given.get(unknown.name, unknown.tolerance)) for unknown in unknowns]
+    return Problem(robot, tuple(chosen), noise_m, angle_noise, dict(nominal or {}))
+
+
+def _unknowns(
+    robot: str, offsets: bool, dimensions: Sequence[str], frame: Sequence[str], nominal: Mapping[str, float]
+) -> list[Unknown]:
+    """Offsets, dimensions, frame, with the usual tolerances."""
+    kind, units = ROBOTS[robot].build, dict(FRAME)
     try:
-        geometry = build_robot(robot, nominal or {}).geometry
+        geometry = build_robot(robot, nominal).geometry
     except GeometryError as error:
         raise LinkError(str(error)) from None
-    units = dict(FRAME)
     _check_names(dimensions, KINEMATIC[robot], "dimension to calibrate")
     _check_names(frame, units, "part of the measuring frame")
     unknowns = [
@@ -184,16 +198,7 @@ def make_problem(
         bounds, value = geometry.dimensions()[name], float(getattr(geometry, name))
         tolerance = TOLERANCES.get(name, TOLERANCES["dimension"])
         unknowns.append(Unknown(name, "dimension", bounds.unit, value, tolerance, bounds.low, bounds.high))
-    unknowns += [Unknown(name, "frame", units[name], 0.0, TOLERANCES[f"frame {units[name]}"]) for name in frame]
-    _check_names(given, [unknown.name for unknown in unknowns], "unknown of this problem")
-    if not unknowns:
-        raise LinkError("Nothing is looked for; choose joint offsets, dimensions or the measuring frame.")
-    if not (noise_m > 0.0 and angle_noise > 0.0 and all(value > 0.0 for value in given.values())):
-        raise LinkError("Tolerances and the accuracy of the measurements must be above 0.")
-    chosen = [
-        Unknown(u.name, u.kind, u.unit, u.assumed, given.get(u.name, u.tolerance), u.low, u.high) for u in unknowns
-    ]
-    return Problem(robot, tuple(chosen), noise_m, angle_noise, dict(nominal or {}))
+    return unknowns + [Unknown(name, "frame", units[name], 0.0, TOLERANCES[f"frame {units[name]}"]) for name in frame]
 
 
 def observed(problem: Problem, data: Measurements) -> tuple[Array, Array]:

@@ -240,6 +240,9 @@ _LAYOUTS: dict[type, _Layout] = {
 _STRUCTS = {kind: struct.Struct("<BH" + layout.fields) for kind, layout in _LAYOUTS.items()}
 _BY_TYPE = {int(layout.type): kind for kind, layout in _LAYOUTS.items()}
 
+PAYLOAD_FIELDS: dict[MessageType, str] = {layout.type: layout.fields for layout in _LAYOUTS.values()}
+"""What follows type and number in each message, as `struct` writes it."""
+
 PAYLOAD_LENGTHS: dict[MessageType, int] = {layout.type: _STRUCTS[kind].size for kind, layout in _LAYOUTS.items()}
 """Bytes of each message, type and number included."""
 

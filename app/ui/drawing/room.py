@@ -7,6 +7,7 @@ import asyncio
 import viser
 
 from app.ui.drawing.desk import DrawingDesk
+from app.ui.drawing.jobs import Sketch
 from app.ui.drawing.player import DrawingPlayer
 from app.ui.drawing.scene import DrawingScene
 from app.ui.drawing.series import Series
@@ -43,6 +44,11 @@ class DrawingRoom:
         self._plays: list[PlayPanel] = []
         self._closed = False
         self._bench.shown.connect(lambda panel: self._scene.visible(panel is self._panel))
+
+    @property
+    def drawing(self) -> Sketch | None:
+        """What is shown, if the robot has a way to draw it."""
+        return None if self.desk.plan is None else self.desk.sketch
 
     async def build(self) -> None:
         """Panel by panel: others get their turn between them."""

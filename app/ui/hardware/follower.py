@@ -6,6 +6,7 @@ from app.link.protocol.codes import State
 from app.link.status import LinkStatus
 from app.ui.gizmo import Gizmo
 from app.ui.hardware.desk import HardwareDesk
+from app.ui.hardware.whereabouts import commanded
 
 NEAR = 1e-5
 """rad or m: closer joints are the same."""
@@ -39,7 +40,7 @@ def is_moving(status: LinkStatus) -> bool:
 
 def stand_as_commanded(desk: HardwareDesk, status: LinkStatus) -> None:
     """Put the robot in the picture where the board's set-point is, if that is known."""
-    session, place = desk.session, desk.workshop.whereabouts.commanded(status)
+    session, place = desk.session, commanded(status)
     if place is None or not desk.shows_it:
         return
     if max(abs(a - b) for a, b in zip(place.joints, session.stance.joints, strict=True)) > NEAR:

@@ -11,7 +11,7 @@ from app.robots.parts import Machine, Part, machine_of
 from app.ui import theme
 from app.ui.ghost_nodes import GhostNodes
 from app.ui.hardware.desk import HardwareDesk
-from app.ui.hardware.whereabouts import Place
+from app.ui.hardware.whereabouts import Place, measured
 from app.ui.shape_cache import ShapeCache
 
 ROOT = "/robot/measured"
@@ -53,7 +53,7 @@ class RobotGhost:
         """Where the robot is; None where that is not wanted, not known, or another robot's."""
         if not self._desk.session.view.measured or not self._desk.shows_it:
             return None
-        return self._desk.workshop.whereabouts.measured(status)
+        return measured(status)
 
     def _is_apart(self, joints: Sequence[float]) -> bool:
         robot, stance = self._desk.session.robot, self._desk.session.stance

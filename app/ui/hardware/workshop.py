@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from concurrent.futures import Future
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 from app.ui.hardware.people import People, random_pin
@@ -17,7 +16,6 @@ if TYPE_CHECKING:
     from app.link.lease import Person
     from app.link.link import RobotLink
     from app.link.status import LinkStatus
-    from app.ui.hardware.whereabouts import Whereabouts
 
 ONLY_INSTRUCTOR = "Only the instructor chooses the port on this server: give the PIN under You."
 
@@ -32,13 +30,6 @@ class Workshop:
         self._table: Table | None = None
         self._link: RobotLink | None = None
         self._making = threading.Lock()
-
-    @cached_property
-    def whereabouts(self) -> Whereabouts:
-        """Of the robot on the table, for pictures of it."""
-        from app.ui.hardware.whereabouts import Whereabouts
-
-        return Whereabouts()
 
     @property
     def link(self) -> RobotLink:

@@ -14,6 +14,8 @@ from app.link.firmware import build
 from tests.support.imports import ROOT
 from tests.support.tools import needs
 
+pytestmark = pytest.mark.long
+
 STRICT = ("-Wall", "-Wextra", "-Werror", "-Wdouble-promotion")
 STM32 = ("-mcpu=cortex-m4", "-mthumb", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard")
 

@@ -204,17 +204,17 @@ def move_cable(world: World, what: str) -> None:
 
 @line(r"garble (\d+) % of the bytes")
 def garble(world: World, percent: str) -> None:
-    world.cable.noise = float(percent) / 100
+    world.disturb(noise=float(percent) / 100)
 
 
 @line(r"lose (\d+) % of the bytes")
 def lose(world: World, percent: str) -> None:
-    world.cable.loss = float(percent) / 100
+    world.disturb(loss=float(percent) / 100)
 
 
 @line(r"delay by (\d+) ms")
 def delay(world: World, ms: str) -> None:
-    world.cable.delay_s = 1e-3 * float(ms)
+    world.disturb(delay_s=1e-3 * float(ms))
 
 
 @line(r"(\d+) random bytes reach the board")

@@ -12,6 +12,8 @@ from tests.link.scenarios.script import play
 from tests.link.scenarios.world import World
 from tests.support.tools import needs
 
+pytestmark = pytest.mark.long
+
 FILES = sorted(Path(__file__).parent.glob("plays/*.toml"))
 
 

@@ -8,6 +8,7 @@ from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import ExitStack
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -105,6 +106,10 @@ class World:
         elif error := answer.exception():
             assert isinstance(error, LinkError), error
             self.refusal = str(error)
+
+    def disturb(self, **faults: float) -> None:
+        """Change what is wrong with the cable."""
+        self.cable.faults = replace(self.cable.faults, **faults)  # type: ignore[arg-type]
 
     def hold(self, person: Person, jog: Jog) -> None:
         """A finger on a jog button: the page renews it every 50 ms."""

@@ -20,22 +20,14 @@ from app.link.protocol.codes import (
     RobotKind,
 )
 from app.link.protocol.frames import FrameDecoder, encode_frame
-from app.link.protocol.messages import PAYLOAD_LENGTHS, Identity
+from app.link.protocol.messages import PAYLOAD_FIELDS, PAYLOAD_LENGTHS, Identity
 from app.link.protocol.settings import GEOMETRY_ID, setting_id
 
 FIRMWARE = 0x0100
 """Version 1.0, as the C core's."""
 
-_FIELDS = {
-    MessageType.HELLO: "",
-    MessageType.ALIVE: "",
-    MessageType.SETPOINT: "BBB4f",
-    MessageType.COMMAND: "BB",
-    MessageType.SET: "Bf",
-    MessageType.GET: "B",
-    MessageType.TEST: "BBfH",
-}
-"""As they are, for a board must refuse what `unpack` would not read."""
+_HEARD = frozenset(kind for kind in MessageType if kind < MessageType.TELEMETRY)
+"""What comes from the host. It is read field by field: a board must refuse what `unpack` would not read."""
 
 
 class TwinCore:
@@ -65,7 +57,7 @@ class TwinCore:
         """Bytes from the host."""
         before = self._decoder.bad
         for payload in self._decoder.feed(data):
-            known = payload[0] in _FIELDS and len(payload) == PAYLOAD_LENGTHS[MessageType(payload[0])]
+            known = payload[0] in _HEARD and len(payload) == PAYLOAD_LENGTHS[MessageType(payload[0])]
             if known:
                 self._machine.frame_us = self._machine.now_us
                 self._handle(MessageType(payload[0]), payload)
@@ -96,7 +88,7 @@ class TwinCore:
 
     def _handle(self, kind: MessageType, payload: bytes) -> None:
         m, reports = self._machine, self._reports
-        number, *fields = struct.unpack_from("<H" + _FIELDS[kind], payload, 1)
+        number, *fields = struct.unpack_from("<H" + PAYLOAD_FIELDS[kind], payload, 1)
         if kind == MessageType.SETPOINT:
             m.refusal = orders.setpoint(m, *fields)
             self._setpoint_number = number if m.refusal == Refusal.OK else self._setpoint_number

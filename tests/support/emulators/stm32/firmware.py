@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 import functools
-import hashlib
-import os
-import shutil
 import subprocess
-import tempfile
-from collections.abc import Callable
 from pathlib import Path
 
+from tests.support.emulators.cache import kept, run
 from tests.support.imports import ROOT
 from tests.support.tools import needs
 
@@ -25,14 +21,16 @@ needs_stm32 = needs("make", "arm-none-eabi-gcc", "qemu-system-arm")
 """For tests that emulate an STM32."""
 
 
+@functools.cache
 def firmware(variant: str = "par4_dc") -> Path:
     """The ELF file, with symbols, of one of the variants."""
-    return _kept("stm32", _make) / f"stm32_{variant}.elf"
+    return kept("stm32", _sources(), _make) / f"stm32_{variant}.elf"
 
 
+@functools.cache
 def driver_library() -> Path:
     """The drivers as a shared library; the processor's registers are an array in it."""
-    return _kept("drivers", _compile_drivers) / DRIVERS
+    return kept("drivers", _sources(), _compile_drivers) / DRIVERS
 
 
 def symbol(elf: Path, name: str) -> int:
@@ -43,7 +41,7 @@ def symbol(elf: Path, name: str) -> int:
 
 def _make(folder: Path) -> None:
     for variant in VARIANTS:
-        _run(["make", "-C", str(FIRMWARE), "stm32", f"BUILD={folder}", f"VARIANT={variant}"])
+        run(["make", "-C", str(FIRMWARE), "stm32", f"BUILD={folder}", f"VARIANT={variant}"])
 
 
 def _compile_drivers(folder: Path) -> None:
@@ -52,35 +50,13 @@ def _compile_drivers(folder: Path) -> None:
     flags = ["-std=gnu99", "-O1", "-fPIC", "-shared", "-Wall", "-Wextra", "-Werror", "-DDL_HOST_REGISTERS"]
     include = [f"-I{CORE}", f"-I{FIRMWARE / 'stm32'}"]
     files = [*sources, *sorted(CORE.glob("*.c")), HERE / "registers.c"]
-    _run(["gcc", *flags, *include, *map(str, files), "-lm", "-o", str(folder / DRIVERS)])
+    run(["gcc", *flags, *include, *map(str, files), "-lm", "-o", str(folder / DRIVERS)])
 
 
-def _run(command: list[str]) -> None:
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 0, f"{' '.join(command)}\n{done.stdout}{done.stderr}"
-
-
-def _kept(name: str, build: Callable[[Path], None]) -> Path:
-    """A folder that was filled before from the same sources, or is now; other workers may do so at the same time."""
-    cache = Path(tempfile.gettempdir()) / f"deltalab-stm32-{os.getuid()}"
-    kept = cache / f"{name}-{_fingerprint()}"
-    if not kept.exists():
-        cache.mkdir(mode=0o700, exist_ok=True)
-        fresh = Path(tempfile.mkdtemp(dir=cache))
-        build(fresh)
-        try:
-            fresh.rename(kept)
-        except OSError:  # another worker was first
-            shutil.rmtree(fresh)
-    return kept
-
-
-@functools.cache
-def _fingerprint() -> str:
-    folders = [FIRMWARE / "stm32", CORE]
-    sources = [path for folder in folders for path in folder.iterdir() if path.suffix in (".c", ".h", ".ld")]
-    sources += [FIRMWARE / "stm32.mk", HERE / "registers.c"]
-    digest = hashlib.sha256()
-    for path in sorted(sources):
-        digest.update(str(path.name).encode() + b"\0" + path.read_bytes())
-    return digest.hexdigest()[:16]
+def _sources() -> list[Path]:
+    found = [path for folder in (FIRMWARE / "stm32", CORE) for path in folder.iterdir()]
+    return [
+        *(path for path in found if path.suffix in (".c", ".h", ".ld")),
+        FIRMWARE / "stm32.mk",
+        HERE / "registers.c",
+    ]
