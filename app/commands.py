@@ -12,7 +12,7 @@ from typing import TypeVar
 
 import tyro
 
-from app import __version__, firmware_command, link_command
+from app import __version__, export_command, firmware_command, link_command
 from app.draw_command import Draw, draw
 from app.errors import UserMistake
 from app.resources import data_root
@@ -70,6 +70,7 @@ def reproduce(command: Reproduce) -> None:
 
 COMMANDS: dict[str, tuple[type, Callable[..., None]]] = {
     "draw": (Draw, draw),
+    "export": (export_command.Export, export_command.export),
     "firmware build": (firmware_command.Build, firmware_command.build),
     "firmware upload": (firmware_command.Upload, firmware_command.upload),
     "link info": (link_command.Info, link_command.info),

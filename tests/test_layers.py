@@ -32,7 +32,7 @@ LAYERS = [
 TOP_MODULES = {"app": "foundation", "app.errors": "foundation", "app.resources": "foundation"}
 TOP_MODULES |= {"app.cli": "cli", "app.commands": "cli", "app.__main__": "cli"}
 TOP_MODULES |= {"app.draw_command": "cli", "app.firmware_command": "cli", "app.link_command": "cli"}
-TOP_MODULES |= {"app.link_console": "cli"}
+TOP_MODULES |= {"app.link_console": "cli", "app.export_command": "cli"}
 HOMES = {"viser": "ui", "serial": "link"}
 """Library -> the only layer that may import it."""
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import ClassVar, NamedTuple
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from app.robots.geometry import Geometry, GeometryError
 from app.robots.nearest import Boundary, last_feasible, nearest_feasible
 from app.robots.reach import NOT_A_NUMBER, Reach
+
+if TYPE_CHECKING:
+    from app.robots.dynamics import Dynamics
 
 Array = NDArray[np.float64]
 
@@ -141,6 +145,17 @@ class Robot(ABC):
     @abstractmethod
     def solve(self, *pose: float) -> tuple[float, ...]:
         """`inverse` of one pose in plain floats: a drag event or a control step costs microseconds."""
+
+    @cached_property
+    def dynamics(self) -> Dynamics:
+        """Equations of motion with the robot's declared masses."""
+        from app.robots.dynamics import dynamics_of  # it builds on this module
+
+        return dynamics_of(self)
+
+    def inverse_dynamics(self, pose: ArrayLike, rate: ArrayLike, acceleration: ArrayLike) -> Array:
+        """(..., n) joint torques (N m) or forces (N) of a motion of the pose, each (..., dof); NaN out of reach."""
+        return self.dynamics.inverse(pose, rate, acceleration)
 
     def reachable(self, pose: ArrayLike) -> NDArray[np.bool_]:
         """(...,) whether each pose of (..., dof) lies inside reach and every limit."""

@@ -33,8 +33,8 @@ class Run:
     """(k, n) where they were."""
     u: Array
     """(k, n) control signal."""
-    u_max: float
-    """Limit of the control signal to either side."""
+    u_max: float | Array
+    """Limit of the control signal to either side, (n,) where each joint has its own."""
     effort_unit: str
     """Of the control signal, say `V`."""
     ise: Array
@@ -83,7 +83,7 @@ class Run:
     @property
     def saturation_share(self) -> float:
         """Share of all control signals that stand at their limit."""
-        return float(np.mean(np.abs(self.u) >= self.u_max * (1.0 - 1e-9)))
+        return float(np.mean(np.abs(self.u) >= np.asarray(self.u_max) * (1.0 - 1e-9)))
 
     def csv(self) -> str:
         """Every instant as a table with units in its head."""

@@ -28,13 +28,17 @@ class GhostNodes:
         self._paint = paint
         self._opacity = opacity
         self._nodes: dict[str, viser.BatchedMeshHandle] = {}
+        self._tints: tuple[theme.Rgb, ...] = ()
 
     @property
     def shown(self) -> bool:
         return bool(self._nodes)
 
-    def show(self, machine: Machine, ghosts: Sequence[Configuration]) -> None:
-        """One copy of the machine for every configuration."""
+    def show(self, machine: Machine, ghosts: Sequence[Configuration], tints: Sequence[theme.Rgb] | None = None) -> None:
+        """One copy of the machine for every configuration; with tints, each wholly in a colour of its own."""
+        if tuple(tints or ()) != self._tints:
+            self.clear()
+            self._tints = tuple(tints or ())
         placements = [machine.place(*ghost) for ghost in ghosts]
         for body in machine.bodies:
             if body.fixed is None or body.frame == "tool":
@@ -59,6 +63,8 @@ class GhostNodes:
         if arrays is None:
             return
         colors = [self._paint(part, leg) for leg in body.legs] * ghosts
+        if self._tints:
+            colors = [tint for tint in self._tints for _ in body.legs]
         self._nodes[part.name] = self._scene.add_batched_meshes_simple(
             f"{self._root}/{part.name}",
             *arrays,

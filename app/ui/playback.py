@@ -48,6 +48,8 @@ class Playback:
         self.moved: Signal[float] = Signal()
         """The time shown, s."""
         self.playing_changed: Signal[bool] = Signal()
+        self.loaded: Signal[Played | None] = Signal()
+        """Something else is to be played, or nothing."""
         self._session = session
         self._run: Played | None = None
         self._task: asyncio.Task[None] | None = None
@@ -81,6 +83,8 @@ class Playback:
         self.time_s = 0.0
         if run is not None:
             self.speed = _pleasant_speed(self.duration_s) if speed is None else speed
+        self.loaded.emit(run)
+        if run is not None:
             self.moved.emit(0.0)
 
     def play(self) -> None:

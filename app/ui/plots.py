@@ -40,6 +40,8 @@ class Curve:
     """Of the points, pixels."""
     optional: bool = False
     """Named in the legend only while it is there. Coming and going rebuilds the chart, so not for what often does."""
+    named: bool = True
+    """Whether the legend names it at all."""
 
 
 @dataclass(frozen=True)
@@ -129,7 +131,7 @@ def _series(curve: Curve, absent: bool) -> uplot.Series:
         series["points"] = uplot.Series_Points(show=False)
     if curve.dash:
         series["dash"] = curve.dash
-    if absent:
+    if absent or not curve.named:
         series["class"] = HIDDEN
     return series
 

@@ -18,6 +18,7 @@ from app.ui.hardware.stop_bar import StopBar
 from app.ui.hardware.surroundings import HardwareSurroundings
 from app.ui.hardware.workshop import Workshop
 from app.ui.lab.room import ControlRoom
+from app.ui.motion.surroundings import MotionSurroundings
 from app.ui.notice import Notice
 from app.ui.overlay import Overlay
 from app.ui.panels.robot_panel import RobotPanel
@@ -34,14 +35,16 @@ from app.ui.workspace_view import WorkspaceCache, WorkspaceView
 if TYPE_CHECKING:
     from app.ui.drawing.room import DrawingRoom
     from app.ui.hardware.room import HardwareRoom
+    from app.ui.motion.room import MotionRoom
 
 PANEL_WIDTH = 330
 NARROW_TABS = """
 const style = document.createElement("style");
-style.textContent = '[role="tab"] { padding: 0.7em 0.6em !important; } [role="tab"] :has(> svg) { display: none; }';
+style.textContent = '[role="tab"] { padding: 0.7em 0.45em !important; }'
+  + '[role="tab"] > :has(svg) { display: none !important; }';
 document.head.append(style);
 """
-"""Five tabs in one row have no room for pictures."""
+"""Six tabs in one row have no room for pictures."""
 
 
 class Room:
@@ -104,6 +107,7 @@ class Room:
         with tabs.add_tab("Robot", viser.Icon.ROBOT):
             robot_panel = RobotPanel(gui, session)
         control_tab = tabs.add_tab("Control", viser.Icon.ADJUSTMENTS)
+        motion_tab = tabs.add_tab("Motion", viser.Icon.ROUTE)
         draw_tab = tabs.add_tab("Draw", viser.Icon.PENCIL)
         hardware_tab = tabs.add_tab("Hardware", viser.Icon.PLUG)
         with tabs.add_tab("View", viser.Icon.EYE):
@@ -111,6 +115,24 @@ class Room:
         bench = Bench(client)
         access = RobotAccess(client, session, gizmo, self._shapes, self._workshop, self.browser)
         lab = ControlRoom(client, session, control_tab, bench, self._quick_worker(), self._worker, self._tell, access)
+        motion = TabDoor(
+            client,
+            "Motion",
+            lambda: _motion_room(
+                MotionSurroundings(
+                    client,
+                    session,
+                    motion_tab,
+                    bench,
+                    gizmo,
+                    stage,
+                    self._shapes,
+                    self._quick_worker,
+                    self._worker,
+                    self._tell,
+                )
+            ),
+        )
         drawing = TabDoor(
             client,
             "Draw",
@@ -136,8 +158,8 @@ class Room:
                 )
             ),
         )
-        self._closers += [overlay.close, ghosts.close, robot_panel.close, lab.close, drawing.close, hardware.close]
-        self._closers.append(access.close)
+        self._closers += [overlay.close, ghosts.close, robot_panel.close, lab.close]
+        self._closers += [motion.close, drawing.close, hardware.close, access.close]
 
     def _worker(self, failed: Callable[[], None] | None = None) -> Worker:
         """A line of slow work; `failed` is called after a job of it could not be done and the user was told."""
@@ -164,6 +186,12 @@ def _drawing_room(surroundings: Surroundings) -> DrawingRoom:
     from app.ui.drawing.room import DrawingRoom  # needs OpenCV
 
     return DrawingRoom(surroundings)
+
+
+def _motion_room(surroundings: MotionSurroundings) -> MotionRoom:
+    from app.ui.motion.room import MotionRoom  # needs the planners
+
+    return MotionRoom(surroundings)
 
 
 def _hardware_room(surroundings: HardwareSurroundings) -> HardwareRoom:

@@ -49,6 +49,8 @@ class Session:
         """Settings of the control lab, for the next visit."""
         self.drawing = memory.drawing
         """What was drawn, for the next visit."""
+        self.motion = memory.motion
+        """How the robot was to move, for the next visit."""
         self.robot = build_robot(self.robot_name, self.dimensions)
         pose = memory.pose if memory.pose and self.robot.reach(memory.pose).ok else tuple(self.robot.home.tolist())
         self.stance = self._standing(pose)
@@ -56,7 +58,8 @@ class Session:
     @property
     def memory(self) -> Memory:
         """What to keep for the next visit."""
-        return Memory(self.robot_name, dict(self.dimensions), self.stance.pose, self.view, self.control, self.drawing)
+        place = self.robot_name, dict(self.dimensions), self.stance.pose, self.view
+        return Memory(*place, self.control, self.drawing, self.motion)
 
     def choose_robot(self, name: str) -> None:
         """Take another robot, with its default dimensions, at home."""

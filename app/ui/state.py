@@ -10,6 +10,7 @@ from app.ui.lab.settings import ControlSettings
 
 if TYPE_CHECKING:
     from app.drawing.source import Source
+    from app.motion import MotionSettings, WorkCycle
     from app.ui.drawing.settings import DrawingSettings
 
 Pose = tuple[float, ...]
@@ -82,6 +83,15 @@ class DrawingMemory(NamedTuple):
     """As it was typed."""
 
 
+class MotionMemory(NamedTuple):
+    """How the robot was to move."""
+
+    course: MotionSettings
+    cycle: WorkCycle
+    cycling: bool
+    """Whether the work cycle was shown."""
+
+
 @dataclass(frozen=True)
 class Memory:
     """What a browser finds again after a reload."""
@@ -95,3 +105,5 @@ class Memory:
     """None before the control lab was used."""
     drawing: DrawingMemory | None = None
     """None before anything was drawn."""
+    motion: MotionMemory | None = None
+    """None before the tab Motion was used."""

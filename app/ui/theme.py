@@ -33,6 +33,32 @@ PLAN: Rgb = (176, 180, 190)
 PAPER: Rgb = (252, 252, 250)
 PAPER_EDGE: Rgb = (150, 154, 164)
 
+LAWS: dict[str, Rgb] = {
+    "PD": (255, 135, 0),
+    "PID": (40, 110, 165),
+    "PD+": (200, 185, 110),
+    "PDff": (150, 90, 0),
+    "CTC": (0, 195, 210),
+    "CTC+DOB": (115, 40, 255),
+    "MPC": (165, 195, 165),
+    "SMC": (190, 10, 70),
+    "TSIDC": (230, 115, 255),
+    "TSIIDC": (135, 40, 195),
+}
+"""Colour of a control law, by its name. Any two differ for every eye, and each is seen on light and dark."""
+COMPONENTS: dict[str, Rgb] = {
+    "p": (255, 135, 0),
+    "d": (0, 195, 210),
+    "i": (40, 110, 165),
+    "M": (230, 115, 255),
+    "n": (190, 10, 70),
+    "ff": (150, 90, 0),
+    "dob": (115, 40, 255),
+    "s": (135, 40, 195),
+    "qp": (200, 185, 110),
+}
+"""Colour of a part of the torque, by its name."""
+
 LIGHT_FLOOR: Rgb = (244, 245, 247)
 DARK_FLOOR: Rgb = (30, 33, 38)
 
@@ -45,6 +71,16 @@ _VIRIDIS = np.array(
 def leg_color(leg: int) -> Rgb:
     """Colour of a leg, counted from 0."""
     return LEGS[leg % len(LEGS)]
+
+
+def law_color(law: str) -> Rgb:
+    """Colour of a control law."""
+    return LAWS.get(law, VECTOR)
+
+
+def component_color(component: str) -> Rgb:
+    """Colour of a part of the torque."""
+    return COMPONENTS.get(component, VECTOR)
 
 
 def line_colors(marked: NDArray[np.bool_], mark: Rgb, other: Rgb) -> NDArray[np.uint8]:
@@ -60,7 +96,11 @@ def css(color: Rgb) -> str:
 
 def conditioning_colors(conditioning: ArrayLike) -> NDArray[np.uint8]:
     """(..., 3) bright where the robot moves evenly (condition number 1.5), dark towards a singularity (10)."""
-    darkness = np.log(np.maximum(conditioning, 1.5) / 1.5) / np.log(10.0 / 1.5)
+    return ramp(1.0 - np.log(np.maximum(conditioning, 1.5) / 1.5) / np.log(10.0 / 1.5))
+
+
+def ramp(brightness: ArrayLike) -> NDArray[np.uint8]:
+    """(..., 3) colours from dark (0) to bright (1), evenly spaced for the eye."""
     stops = np.linspace(0.0, 1.0, len(_VIRIDIS))
-    channels = [np.interp(1.0 - darkness, stops, _VIRIDIS[:, channel]) for channel in range(3)]
+    channels = [np.interp(np.asarray(brightness, dtype=float), stops, _VIRIDIS[:, channel]) for channel in range(3)]
     return np.stack(channels, axis=-1).astype(np.uint8)

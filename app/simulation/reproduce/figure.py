@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-Verdict = Literal["reproduced", "not reproduced", "paper wrong", "left open", "input", "beyond the paper"]
-"""`reproduced`: ours rounds to the printed digits. `paper wrong`: a slip in print, ours is what it must be.
-`left open`: not printed, though the results depend on it; ours was found or chosen. `input`: data, taken as they
-stand. `beyond the paper`: ours only."""
+Verdict = Literal[
+    "reproduced", "not reproduced", "paper wrong", "left open", "cannot tell", "input", "beyond the paper"
+]
+"""`reproduced`: ours rounds to the printed digits, or a claim in words holds. `paper wrong`: a slip in print, ours is
+what it must be. `left open`: not printed, though the results depend on it; ours was found or chosen. `cannot tell`: a
+printed result that depends on what the paper does not print; ours is for values of our own. `input`: data, taken as
+they stand. `beyond the paper`: ours only."""
 
 
 @dataclass(frozen=True)
@@ -68,6 +71,13 @@ class Section:
 
     def wrong(self, name: str, unit: str, printed: str, computed: float | str, note: str) -> Figure:
         return Figure(self.title, name, unit, printed, computed, "paper wrong", note)
+
+    def claim(self, name: str, printed: str, ours: str, holds: bool, note: str = "") -> Figure:
+        """What the paper says in words, beside what we see, in a few letters each."""
+        return Figure(self.title, name, "", printed, ours, "reproduced" if holds else "not reproduced", note)
+
+    def unsettled(self, name: str, unit: str, printed: str, computed: float, note: str = "") -> Figure:
+        return Figure(self.title, name, unit, printed, computed, "cannot tell", note)
 
     def open(self, name: str, unit: str, computed: float | str, note: str) -> Figure:
         return Figure(self.title, name, unit, "", computed, "left open", note)

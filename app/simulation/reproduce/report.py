@@ -21,6 +21,7 @@ STYLES: dict[Verdict, str] = {
     "not reproduced": "bold red",
     "paper wrong": "red",
     "left open": "yellow",
+    "cannot tell": "yellow",
     "input": "dim",
     "beyond the paper": "cyan",
 }
@@ -30,12 +31,13 @@ SUMMED_UP: dict[Verdict, str] = {
     "not reproduced": "not reproduced",
     "paper wrong": "wrong in print",
     "left open": "left open",
+    "cannot tell": "cannot be checked",
     "input": "taken as input",
 }
 """How the closing line calls the verdicts on the paper's own numbers."""
 
 COLUMNS = ("printed", "ours", "difference", "unit", "verdict")
-WIDTHS = (10, 10, 10, 8, 11)
+WIDTHS = (10, 10, 10, 8, 14)
 """Characters of each; the name before them takes what is left."""
 
 NARROWEST, WIDEST = 80, 100
@@ -93,12 +95,12 @@ def _sections(figures: list[Figure]) -> Iterator[RenderableType]:
         yield ""
         yield Text(title, "bold")
         for figure in members:
-            yield Padding(_line(*_cells(figure)), (0, 0, 0, 2))
+            yield Padding(_line(*cells(figure)), (0, 0, 0, 2))
             if figure.note:
                 yield Padding(Text(figure.note, "dim"), (0, 2, 0, 4))
 
 
-def _cells(figure: Figure) -> list[Text]:
+def cells(figure: Figure) -> list[Text]:
     """One a column; each verdict is a word or two here."""
     texts = (figure.name, figure.printed or "-", _ours(figure), _difference(figure), figure.unit)
     return [*map(Text, texts), Text(figure.verdict.removesuffix(" the paper"), STYLES[figure.verdict])]
@@ -108,6 +110,8 @@ def _ours(figure: Figure) -> str:
     value = figure.computed
     if value is None or isinstance(value, str):
         return value or "-"
+    if "e" in figure.printed:
+        return f"{value:.4e}"
     if float(value).is_integer():
         return f"{value:.0f}"
     return f"{value:.5g}" if figure.decimals is None else f"{value:.{_shown_decimals(figure.decimals)}f}"
@@ -116,14 +120,16 @@ def _ours(figure: Figure) -> str:
 def _difference(figure: Figure) -> str:
     if figure.difference is None or figure.decimals is None:
         return "-"
+    if "e" in figure.printed:
+        return f"{figure.difference:+.2e}"
     if float(figure.difference).is_integer():
         return f"{figure.difference:+.0f}" if figure.difference else "0"
     return f"{figure.difference:+.{_shown_decimals(figure.decimals)}f}"
 
 
 def _shown_decimals(printed: int) -> int:
-    """More than printed, so that the rounding can be seen."""
-    return max(printed + 2, 3)
+    """More than printed, so that the rounding can be seen; no more than fit."""
+    return min(max(printed + 2, 3), 7)
 
 
 def _line(*cells: Text) -> Table:

@@ -14,7 +14,7 @@ STYLE = (
 def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """Cells are HTML, the head is text. The last cell of a short row takes the rest of its width."""
     titles = "".join(
-        f'<th style="text-align:{"left" if k == 0 else "right"}">{html.escape(name)}</th>'
+        f'<th style="{"text-align:left" if k == 0 else "text-align:right;padding-left:6px"}">{html.escape(name)}</th>'
         for k, name in enumerate(head)
     )
     return f'<table style="{STYLE}"><tr>{titles}</tr>{"".join(_row(row, len(head)) for row in rows)}</table>'

@@ -12,8 +12,7 @@ from app.ui.compute import Worker
 from app.ui.drawing.compare_jobs import ARM_PATHS, THIS, against_arm
 from app.ui.drawing.desk import DrawingDesk
 from app.ui.panels.drawing.preview_panel import duration
-from app.ui.panels.drawing.source_panel import problem
-from app.ui.panels.text import small
+from app.ui.panels.text import problem, small
 from app.ui.refusal import Refusal
 
 ABOUT = (

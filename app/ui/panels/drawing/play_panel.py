@@ -9,8 +9,7 @@ from app.ui.drawing.jobs import Plan
 from app.ui.drawing.player import DrawingPlayer, State
 from app.ui.pacing import Paced
 from app.ui.panels.drawing.preview_panel import duration
-from app.ui.panels.drawing.source_panel import problem
-from app.ui.panels.text import small
+from app.ui.panels.text import problem, small
 from app.ui.viser_adapter import show_value
 
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0)

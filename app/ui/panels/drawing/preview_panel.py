@@ -10,8 +10,7 @@ import viser
 from app.drawing.modes import DRAWING_MODES
 from app.ui.drawing.desk import DrawingDesk
 from app.ui.drawing.jobs import Plan, Sketch, TooDense
-from app.ui.panels.drawing.source_panel import problem
-from app.ui.panels.text import small
+from app.ui.panels.text import problem, small
 from app.ui.refusal import Refusal
 
 LEGEND = "Strokes run from blue (first) to orange (last); thin grey lines are ways with the pen up."

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import html
-
 import viser
 
 from app.drawing.samples import SAMPLES
 from app.drawing.source import Source
-from app.ui import theme
 from app.ui.drawing.desk import DrawingDesk
 from app.ui.drawing.jobs import TooDense
 from app.ui.drawing.settings import DrawingSettings
 from app.ui.panels.drawing.pad import Pad
 from app.ui.panels.options import show_options
-from app.ui.panels.text import small
+from app.ui.panels.text import problem
 from app.ui.refusal import Refusal
 
 TEXT, HAND = "A text", "Draw by hand"
@@ -111,8 +108,3 @@ def own_title(name: str) -> str:
     """What a file is called in the list, where no other entry is called so."""
     taken = {*NAMES, *NAMES.values(), *KINDS, *KINDS.values()}
     return f"{name} (file)" if name in taken else name
-
-
-def problem(sentence: str) -> str:
-    """HTML of why something cannot be."""
-    return small(f'<b style="color:{theme.css(theme.WARNING)}">▲ {html.escape(sentence)}</b>')

@@ -1,0 +1,1 @@
+"""Controllers compared: settings, simulated runs, scores and pictures of one browser."""
