@@ -12,7 +12,7 @@ from app.robots.dynamics import INERTIA, Inertia, Terms, dynamics_of
 
 Values = tuple[float, ...]
 
-STEP_S = 0.0005
+STEP_S = 0.001
 """Longest step of the analytic plant."""
 
 
@@ -171,5 +171,6 @@ class _Drag:
             start.append(f - coulomb * bend - viscous * qd)
             slope = viscous + steepest * (1.0 - bend * bend)
             yields.append(half * slope / (1.0 + step * slope * half_1_m))
-        speeding = now.joint_acceleration(now.acceleration(start))
-        return [f - share * qdd for f, share, qdd in zip(start, yields, speeding, strict=True)]
+        moved = now.to_joints(now.acceleration(start))
+        rows = zip(start, yields, moved, now.joint_bias, strict=True)
+        return [f - share * (qdd + h) for f, share, qdd, h in rows]

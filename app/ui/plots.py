@@ -107,7 +107,7 @@ class Plot:
         self._chart.remove()
 
     def _both_axes(self) -> tuple[uplot.Axis, ...]:
-        return _axis("x", self._axes.x, 34), _axis("y", self._axes.y, 52)
+        return _axis("x", self._axes.x, 34), _axis("y", self._axes.y, 58)
 
     def _series(self) -> tuple[uplot.Series, ...]:
         extent = uplot.Series({"label": "", "class": HIDDEN, "width": 0, "points": {"show": False}})

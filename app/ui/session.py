@@ -51,6 +51,10 @@ class Session:
         """What was drawn, for the next visit."""
         self.motion = memory.motion
         """How the robot was to move, for the next visit."""
+        self.comparison = memory.comparison
+        """How controllers were compared, for the next visit."""
+        self.maps = memory.maps
+        """Which map was chosen, for the next visit."""
         self.robot = build_robot(self.robot_name, self.dimensions)
         pose = memory.pose if memory.pose and self.robot.reach(memory.pose).ok else tuple(self.robot.home.tolist())
         self.stance = self._standing(pose)
@@ -59,7 +63,7 @@ class Session:
     def memory(self) -> Memory:
         """What to keep for the next visit."""
         place = self.robot_name, dict(self.dimensions), self.stance.pose, self.view
-        return Memory(*place, self.control, self.drawing, self.motion)
+        return Memory(*place, self.control, self.drawing, self.motion, self.comparison, self.maps)
 
     def choose_robot(self, name: str) -> None:
         """Take another robot, with its default dimensions, at home."""

@@ -11,6 +11,8 @@ from app.ui.lab.settings import ControlSettings
 if TYPE_CHECKING:
     from app.drawing.source import Source
     from app.motion import MotionSettings, WorkCycle
+    from app.robots.maps import MapSettings
+    from app.ui.compare.settings import CompareSettings
     from app.ui.drawing.settings import DrawingSettings
 
 Pose = tuple[float, ...]
@@ -107,3 +109,7 @@ class Memory:
     """None before anything was drawn."""
     motion: MotionMemory | None = None
     """None before the tab Motion was used."""
+    comparison: CompareSettings | None = None
+    """None before controllers were compared."""
+    maps: MapSettings | None = None
+    """None before a map was chosen."""

@@ -236,3 +236,18 @@ def test_the_newest_comparison_wins():
         assert {law: result.score.rms_of("z", WHOLE) for law, result in done.results.items()} == RMS_Z[1.0]
 
     at(scene)
+
+
+def test_settings_are_found_again_after_a_reload():
+    async def scene(table: Table) -> None:
+        table.desk.change(laws=("PID", "MPC"), friction=0.5)
+        again = Session(table.session.memory)
+        assert again.comparison == table.desk.settings
+        worker = Worker(ThreadPoolExecutor(1), print)
+        found = CompareDesk(again, MotionDesk(again, worker, worker), Series(worker), print)
+        assert found.settings.laws == ("PID", "MPC") and found.settings.friction == 0.5
+        other = Session(Memory("fivebar", comparison=table.desk.settings))
+        fresh = CompareDesk(other, MotionDesk(other, worker, worker), Series(worker), print)
+        assert fresh.settings == default_compare("fivebar")
+
+    at(scene)

@@ -78,7 +78,7 @@ def test_friction_turns_the_ranking_of_the_helix(lab: Page):
     errors = chart(page, "Error of the tool")
     assert errors is not None and errors.legend[-3:] == ["PD", "PID", "CTC"]
     assert max(map(abs, errors.curves["PD"])) == pytest.approx(2.8, abs=0.3), "spec A6: PD sags by 2.8 mm"
-    press(page, "Pause run")
+    press(page, "Pause the run")
     screenshot(page, "compare-helix")
     set_slider(page, "Friction (×)", 1)
     compare(page, 3)
@@ -108,7 +108,7 @@ def test_the_work_cycle_of_the_five_bar(lab: Page):
     wait_until(page, lambda: not nodes(page), "nothing left of the other robot's runs")
     compare(page, 4)
     assert set(order(page)) == {"PD", "PID", "TSIDC", "TSIIDC"} and order(page)[-1] == "PD"
-    press(page, "Pause run")
+    press(page, "Pause the run")
     screenshot(page, "compare-work-cycle")
     open_tab(page, "View")
     toggle(page, "Dark theme")

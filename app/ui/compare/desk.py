@@ -76,7 +76,8 @@ class CompareDesk:
         self.motion = motion
         self._session = session
         self._tell = tell
-        self.settings = default_compare(session.robot_name)
+        kept = session.comparison
+        self.settings = kept if kept and kept.robot == session.robot_name else default_compare(session.robot_name)
         self.comparison: Comparison | None = None
         self.before: Before | None = None
         """The last comparison of the same robot and task."""
@@ -93,7 +94,7 @@ class CompareDesk:
 
     def change(self, **values: object) -> None:
         """Set some values."""
-        self.settings = replace(self.settings, **values)  # type: ignore[arg-type]
+        self.settings = self._session.comparison = replace(self.settings, **values)  # type: ignore[arg-type]
         self.settings_changed.emit(self.settings)
 
     def look_at(self, **values: object) -> None:

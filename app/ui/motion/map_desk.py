@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeGuard
 
 import numpy as np
 
@@ -29,7 +29,8 @@ class MapDesk:
         self._session = session
         self._worker = worker
         self.on = False
-        self.settings = first_settings(session.robot, session.dimensions)
+        kept = session.maps
+        self.settings = kept if _fits(kept, session) else first_settings(session.robot, session.dimensions)
         self.picture: MapPicture | None = None
         self.refusal = ""
         session.robot_changed.connect(self._follow_robot)
@@ -56,7 +57,7 @@ class MapDesk:
 
     def change(self, **values: Any) -> None:
         """Set some values; the picture follows."""
-        self.settings = replace(self.settings, **values)
+        self.settings = self._session.maps = replace(self.settings, **values)
         self._ask()
         self.changed.emit(self.settings)
 
@@ -80,6 +81,10 @@ class MapDesk:
         self.picture = answer if isinstance(answer, MapPicture) else None
         self.refusal = answer.reason if isinstance(answer, Refusal) else ""
         self.answered.emit(None)
+
+
+def _fits(kept: MapSettings | None, session: Session) -> TypeGuard[MapSettings]:
+    return kept is not None and (kept.robot, kept.dimensions) == (session.robot_name, session.dimensions)
 
 
 def first_settings(robot: Robot, dimensions: dict[str, float]) -> MapSettings:

@@ -24,7 +24,7 @@ class PlayPanel:
         self._law = desk.settings.laws[0]
         self._folder = gui.add_folder("Playback", visible=False)
         with self._folder:
-            self._bar = PlayBar(gui, self._playback, self._own, suffix=" run")
+            self._bar = PlayBar(gui, self._playback, self._own, what="run")
             self._choice = gui.add_dropdown("Robot plays", desk.settings.laws)
             factors = tuple(f"{factor}×" for factor in FACTORS)
             self._factor = gui.add_dropdown("Errors drawn", factors, hint="Makes small errors of the tool visible")

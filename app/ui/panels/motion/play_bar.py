@@ -19,20 +19,21 @@ class PlayBar:
 
     Args:
         own: what this bar plays, None while there is nothing.
-        suffix: of the labels that several bars on a page would share.
+        what: named in the labels where a page has several bars.
     """
 
-    def __init__(
-        self, gui: viser.GuiApi, playback: Playback, own: Callable[[], Played | None], suffix: str = ""
-    ) -> None:
+    def __init__(self, gui: viser.GuiApi, playback: Playback, own: Callable[[], Played | None], what: str = "") -> None:
         self._playback = playback
         self._own = own
         self._says_pause = False
-        self._suffix = suffix
-        self._play = gui.add_button(f"Play{suffix}", icon=viser.Icon.PLAYER_PLAY, color="blue", disabled=True)
-        self._time = gui.add_slider(f"Time{suffix} (s)", 0.0, 1.0, TIME_STEP_S, 0.0, disabled=True)
+        self._the_what = f" the {what}" if what else ""
+        self._play = gui.add_button(f"Play{self._the_what}", icon=viser.Icon.PLAYER_PLAY, color="blue", disabled=True)
+        self._time = gui.add_slider(f"{what} time (s)".lstrip().capitalize(), 0.0, 1.0, TIME_STEP_S, 0.0, disabled=True)
         self._speed = gui.add_dropdown(
-            f"Speed{suffix}", tuple(f"{s:g}×" for s in SPEEDS), initial_value="1×", hint="1× is real time"
+            f"{what} speed".lstrip().capitalize(),
+            tuple(f"{s:g}×" for s in SPEEDS),
+            initial_value="1×",
+            hint="1× is real time",
         )
         self._pace = Paced(self._refresh, REFRESH_S)
         playback.moved.connect(lambda _: self._pace.request())
@@ -94,7 +95,7 @@ class PlayBar:
         playing = self._in_use and self._playback.playing
         if playing != self._says_pause:
             self._says_pause = playing
-            self._play.label = f"{'Pause' if playing else 'Play'}{self._suffix}"
+            self._play.label = f"{'Pause' if playing else 'Play'}{self._the_what}"
             self._play.icon = viser.Icon.PLAYER_PAUSE if playing else viser.Icon.PLAYER_PLAY
         show_value(self._time, min(round(self._playback.time_s, 3), self._time.max) if self._in_use else 0.0)
         if self._in_use:
