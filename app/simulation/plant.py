@@ -71,7 +71,7 @@ FRICTION: dict[str, Friction] = {
     "linear": Friction((2.0,) * 3, (8.0,) * 3, 0.001),
     "fivebar": Friction((8.0, 8.0, 3.0, 3.0), (2.0, 2.0, 0.1, 0.1), 0.01),
 }
-"""By robot. linear and fivebar as in the spec (A6, B7); par4 and delta3 are declared, 4 % of the peak effort."""
+"""By robot. linear and fivebar as in the spec (A6, B7); par4 and delta3 are declared, 10 and 8 % of the peak effort."""
 
 
 class ExactPlant:
@@ -103,7 +103,7 @@ class ExactPlant:
         """The equations at the present state."""
         self._before: Terms | None = None
         self._step_s = 0.0
-        self._drag = None if friction is None else _Drag(friction, self._joint_masses())
+        self._drag = None if friction is None else Drag(friction, self._joint_masses())
 
     @property
     def joints(self) -> Values:
@@ -152,20 +152,20 @@ class ExactPlant:
         return self._dynamics.mass_matrix(self.pose, "joint").diagonal().tolist()
 
 
-class _Drag:
-    """Friction within a step."""
+class Drag:
+    """Friction within a step. `rows`: Coulomb, viscous, 1 / width, steepest slope and 1 / 2 M_j of each joint."""
 
     def __init__(self, friction: Friction, masses: Sequence[float]) -> None:
         per_width = 1.0 / friction.width
         columns = friction.coulomb, friction.viscous, masses
-        self._rows = [(c, b, per_width, c * per_width, 0.5 / m) for c, b, m in zip(*columns, strict=True)]
+        self.rows = [(c, b, per_width, c * per_width, 0.5 / m) for c, b, m in zip(*columns, strict=True)]
 
     def left_over(self, now: Terms, effort: Sequence[float], step: float) -> list[float]:
         """Efforts (n,) minus the friction's mean over the step."""
         tanh, half = math.tanh, 0.5 * step
         start, yields = [], []
         for f, qd, (coulomb, viscous, per_width, steepest, half_1_m) in zip(
-            effort, now.joint_rates, self._rows, strict=True
+            effort, now.joint_rates, self.rows, strict=True
         ):
             bend = tanh(per_width * qd)
             start.append(f - coulomb * bend - viscous * qd)

@@ -20,9 +20,9 @@ PHONE_PICTURE_PX = 450
 class Bench:
     """Gives every lab a side panel; the one in use folds the others away."""
 
-    def __init__(self, client: viser.ClientHandle) -> None:
+    def __init__(self, client: viser.ClientHandle, width: PictureWidth) -> None:
         self._client = client
-        self._width = PictureWidth(client)
+        self._width = width
         self._beside: list[viser.PanelHandle] = []
         self.shown: Signal[viser.PanelHandle] = Signal()
         """Another lab is in use."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import viser
 
+from app.ui.session import Signal
 from app.ui.viser_adapter import element_id, run_javascript
 
 _WIDEST_PX = 20000
@@ -24,7 +25,17 @@ class PictureWidth:
 
     def __init__(self, client: viser.ClientHandle) -> None:
         self._client = client
+        self.known: Signal[int] = Signal()
+        """The page has told it for the first time."""
         self._told = client.gui.add_number("Width of the picture", 0, min=0, max=_WIDEST_PX, visible=False)
+        self._is_known = False
+
+        @self._told.on_update
+        async def _(event: viser.GuiEvent[viser.GuiNumberHandle[int]]) -> None:
+            if not self._is_known:
+                self._is_known = True
+                self.known.emit(round(event.target.value))
+
         run_javascript(client, _SCRIPT.replace("UUID", element_id(self._told)))
 
     @property

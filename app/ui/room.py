@@ -23,6 +23,7 @@ from app.ui.notice import Notice
 from app.ui.overlay import Overlay
 from app.ui.panels.robot_panel import RobotPanel
 from app.ui.panels.view_panel import ViewPanel
+from app.ui.picture_width import PictureWidth
 from app.ui.robot_view import RobotView
 from app.ui.session import Session
 from app.ui.shape_cache import ShapeCache
@@ -75,7 +76,8 @@ class Room:
         client, session = self._client, self.session
         stream = NodeStream(client)
         run_javascript(client, 'document.title = "Delta Lab"' + NARROW_TABS)
-        stage = Stage(client, session)
+        width = PictureWidth(client)
+        stage = Stage(client, session, width)
         RobotView(client, session, stream, self._shapes, self._worker())
         gizmo = Gizmo(client, session, stream)
         Notice(client, session)
@@ -84,7 +86,7 @@ class Room:
         await asyncio.sleep(0)
         if self._closed:
             return
-        self._add_panels(stage, gizmo)
+        self._add_panels(stage, gizmo, width)
         session.stance_changed.connect(lambda _: stream.flush())
         client.flush()
 
@@ -96,7 +98,7 @@ class Room:
         for close in self._closers:
             close()
 
-    def _add_panels(self, stage: Stage, gizmo: Gizmo) -> None:
+    def _add_panels(self, stage: Stage, gizmo: Gizmo, width: PictureWidth) -> None:
         client, session, gui = self._client, self.session, self._client.gui
         overlay = Overlay(client, session)
         ghosts = Ghosts(client, session, self._shapes)
@@ -112,7 +114,7 @@ class Room:
         hardware_tab = tabs.add_tab("Hardware", viser.Icon.PLUG)
         with tabs.add_tab("View", viser.Icon.EYE):
             ViewPanel(gui, session, stage, overlay)
-        bench = Bench(client)
+        bench = Bench(client, width)
         access = RobotAccess(client, session, gizmo, self._shapes, self._workshop, self.browser)
         lab = ControlRoom(client, session, control_tab, bench, self._quick_worker(), self._worker, self._tell, access)
         motion = TabDoor(

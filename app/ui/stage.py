@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from app.robots import Robot
 from app.robots.parts import machine_of
 from app.ui import theme
+from app.ui.picture_width import PictureWidth
 from app.ui.session import Session
 from app.ui.state import ViewOptions
 
@@ -59,7 +60,7 @@ def light_the_room(server: viser.ViserServer) -> None:
 class Stage:
     """Floor, theme and camera of one browser."""
 
-    def __init__(self, client: viser.ClientHandle, session: Session) -> None:
+    def __init__(self, client: viser.ClientHandle, session: Session, width: PictureWidth) -> None:
         self._client = client
         self._session = session
         self._dark = session.view.dark
@@ -70,7 +71,9 @@ class Stage:
         self._apply_theme()
         self._follow(session.view)
         client.gui.add_html(SHEET_STYLE)
+        self._on_a_phone = width.px < PHONE_WIDTH_PX
         self.look("3-D")
+        width.known.connect(self._learn_width)
 
     def look(self, view: View) -> None:
         """Turn the camera to a preset that shows the whole machine, on a wide screen or a tall one."""
@@ -87,12 +90,18 @@ class Stage:
         direction = direction / np.linalg.norm(direction)
         aspect = camera.image_width / max(camera.image_height, 1)
         distance = 0.5 * size / np.tan(0.5 * FIELD_OF_VIEW) / min(1.0, max(aspect, 0.3))
-        if camera.image_width < PHONE_WIDTH_PX:
+        if self._on_a_phone:
             focus = focus - np.array([0.0, 0.0, 0.5 * SHEET_HEIGHT * size / max(aspect, 0.3)])
         camera.fov = FIELD_OF_VIEW
         camera.up_direction = (0.0, 0.0, 1.0)
         camera.position = focus + direction * distance
         camera.look_at = focus
+
+    def _learn_width(self, width_px: int) -> None:
+        """Of the whole picture, before side panels narrow it; until then a phone may pass for a desktop."""
+        if (width_px < PHONE_WIDTH_PX) != self._on_a_phone:
+            self._on_a_phone = not self._on_a_phone
+            self.look("3-D")
 
     def _receive(self, robot: Robot) -> None:
         """Another robot is looked at anew; the same one in other dimensions is not."""

@@ -13,6 +13,7 @@ import pytest
 from app.robots import ROBOTS, make_robot
 from app.robots.dynamics import INERTIA, dynamics_of
 from app.simulation import work_cycle
+from app.simulation.fivebar_plant import FiveBarPlant
 from app.simulation.helix import HELICES, helix_tracking
 from app.simulation.plant import FRICTION, ExactPlant, Friction
 
@@ -64,7 +65,7 @@ def _mean(*k: Sequence[float]) -> list[float]:
 
 def test_the_work_cycle_is_a_fine_solution_to_a_tenth_of_a_micrometre(monkeypatch: pytest.MonkeyPatch):
     run = work_cycle("TSIIDC", "W2")
-    monkeypatch.setattr(simulating, "ExactPlant", FinePlant)
+    monkeypatch.setattr(simulating, "FiveBarPlant", FinePlant)
     fine = work_cycle("TSIIDC", "W2")
     off = np.abs(run.pose - fine.pose).max(axis=0)
     assert off[:3].max() < 1e-7 and off[3] < 1e-6
@@ -130,3 +131,17 @@ def test_a_robot_sticks_where_friction_holds_it():
     freed = ExactPlant(robot, pose=robot.home.tolist())
     freed.advance(push, 0.2)
     assert np.abs(np.array(freed.pose) - robot.home).max() > 0.01
+
+
+@pytest.mark.parametrize("friction", [None, FRICTION["fivebar"]])
+def test_the_five_bar_written_out_takes_the_same_steps(friction: Friction | None) -> None:
+    robot, rng = make_robot("fivebar"), np.random.default_rng(5)
+    pose, rate = robot.home.tolist(), [0.3, -0.2, 0.02, 2.0]
+    plants = [kind(robot, pose=pose, rate=rate, friction=friction) for kind in (ExactPlant, FiveBarPlant)]
+    for effort in rng.uniform(-4.0, 4.0, (300, 4)).tolist():
+        for plant in plants:
+            plant.advance(effort, 0.00025)
+    usual, written_out = plants
+    assert np.abs(np.subtract(usual.pose, pose)).max() > 1e-3, "it moves"
+    np.testing.assert_allclose(written_out.pose, usual.pose, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(written_out.rate, usual.rate, rtol=0, atol=1e-10)

@@ -22,14 +22,21 @@ class Integral:
     def after(self, wanted: Sequence[float], actual: Sequence[float]) -> list[float]:
         """The sums to use now, having met the errors wanted - actual."""
         period, before = self._period_s, self._sums
-        after = []
-        for total, goal, value, limit in zip(before, wanted, actual, self._limits, strict=True):
-            grown = total + period * (goal - value)
-            after.append(grown if -limit <= grown <= limit else total)
+        errors = zip(before, wanted, actual, strict=True)
+        after = [total + period * (goal - value) for total, goal, value in errors]
+        for grown, limit in zip(after, self._limits, strict=True):
+            if not -limit <= grown <= limit:
+                after = self._clamped(after, before)
+                break
         self._sums = after
         used = after if self._first else before
         self.trace.append(used)
         return used
+
+    def _clamped(self, after: list[float], before: list[float]) -> list[float]:
+        """The axes beyond their limit stay as they were."""
+        rows = zip(after, before, self._limits, strict=True)
+        return [grown if -limit <= grown <= limit else total for grown, total, limit in rows]
 
 
 def integral_of(setup: Setup, ki: Sequence[float]) -> Integral:

@@ -53,7 +53,7 @@ class Loop:
         keep_effort = trace.effort.append
         plant, read, law, drives, period = self.plant, self.sensor.read, self.law, self.drives, self.period_s
         watch = self.watch
-        applied: list[float] = [0.0] * len(plant.joints)
+        applied: Sequence[float] = [0.0] * len(plant.joints)
         for k in range(self.steps):
             if k in self.events:
                 self.events[k]()

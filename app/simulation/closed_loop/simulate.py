@@ -17,6 +17,7 @@ from app.simulation.closed_loop.experiment import Experiment
 from app.simulation.closed_loop.loop import Loop, Progress, Trace
 from app.simulation.closed_loop.sensor import Encoders, IdealSensor, Sensor, SharedSensor
 from app.simulation.controlled_run import Array, ControlledRun
+from app.simulation.fivebar_plant import FiveBarPlant
 from app.simulation.plant import FRICTION, ExactPlant, Plant
 from app.simulation.run import SHOWN
 from app.simulation.tracking import TrackingError
@@ -92,7 +93,8 @@ def _plant(experiment: Experiment, robot: Robot, reference: Reference) -> tuple[
     inertia, flow, payload = experiment.plant_inertia, experiment.flow, experiment.payload_kg
     friction = FRICTION[robot.name].scaled(experiment.friction) if experiment.friction else None
     if experiment.plant == "exact":
-        plant = ExactPlant(robot, inertia, pose=start, rate=rate, friction=friction)
+        kind = FiveBarPlant if robot.name == "fivebar" else ExactPlant
+        plant = kind(robot, inertia, pose=start, rate=rate, friction=friction)
     else:
         from app.simulation.prototype import MujocoPlant
 
