@@ -24,12 +24,18 @@ settings.register_profile("unhurried", deadline=None, derandomize=os.environ.get
 settings.load_profile("unhurried")
 
 
+LATE_PAGES = "tests/ui/motion/"
+"""Pages that a second worker draws, when it has done everything else."""
+
+
 class ByFile(LoadFileScheduling):
-    """A file's tests stay together, and one worker draws all pages: two would take each other's time."""
+    """A file's tests stay together, and one worker draws most pages: two would take each other's time."""
 
     def _split_scope(self, nodeid: str) -> str:
         path = nodeid.partition("::")[0]
-        return "browser" if draws_pages(path) else path
+        if not draws_pages(path):
+            return path
+        return "late pages" if path.startswith(LATE_PAGES) else "pages"
 
 
 @functools.cache
@@ -53,9 +59,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if "browser" in getattr(item, "fixturenames", ()):
             item.add_marker("browser")
 
-    def turn(item: pytest.Item) -> tuple[bool, bool]:
-        long = item.get_closest_marker("long") is not None or draws_pages(item.nodeid.partition("::")[0])
-        return not long, item.get_closest_marker("browser") is not None
+    def turn(item: pytest.Item) -> tuple[int, bool]:
+        path = item.nodeid.partition("::")[0]
+        late = path.startswith(LATE_PAGES)
+        long = item.get_closest_marker("long") is not None or (draws_pages(path) and not late)
+        return 0 if long else 2 if late else 1, item.get_closest_marker("browser") is not None
 
     items.sort(key=turn)
 

@@ -57,6 +57,8 @@ class Playback:
         self._halt_s = math.inf
         self.time_s = 0.0
         self.speed = 1.0
+        self.repeats = False
+        """Whether it begins again at the end."""
         session.stance_changed.connect(lambda _: self._give_way())
 
     @property
@@ -114,13 +116,19 @@ class Playback:
     async def _march(self) -> None:
         loop = asyncio.get_running_loop()
         last = loop.time()
-        while self.time_s < self._until:
+        while self.time_s < self._until or self._goes_round:
             await asyncio.sleep(FRAME_S)
             now = loop.time()
-            self.time_s = min(self.time_s + self.speed * (now - last), self._until)
+            self.time_s += self.speed * (now - last)
+            if self.time_s >= self._until:
+                self.time_s = self.time_s % self.duration_s if self._goes_round else self._until
             last = now
             self._show()
         self._came_to_rest()
+
+    @property
+    def _goes_round(self) -> bool:
+        return self.repeats and self._halt_s == math.inf and self.duration_s > 0.0
 
     @property
     def _until(self) -> float:

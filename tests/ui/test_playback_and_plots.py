@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import math
+from itertools import pairwise
 from types import SimpleNamespace
 from typing import Any
 
@@ -60,6 +61,25 @@ def test_a_hand_on_the_robot_pauses_the_playback(run: Run):
         before = playback.time_s
         await asyncio.sleep(0.12)
         assert playback.time_s == before
+
+    asyncio.run(play())
+
+
+def test_it_goes_round_until_it_is_paused(run: Run):
+    async def play() -> None:
+        playback = Playback(Session(Memory("par4")))
+        times: list[float] = []
+        playback.moved.connect(times.append)
+        playback.load(run)
+        playback.speed, playback.repeats = 5.0, True
+        playback.play()
+        await asyncio.sleep(1.0)
+        assert playback.playing, "it would have been over twice"
+        assert any(later < earlier for earlier, later in pairwise(times))
+        assert max(times) < run.t[-1]
+        playback.repeats = False
+        await asyncio.sleep(0.6)
+        assert not playback.playing and playback.time_s == pytest.approx(run.t[-1])
 
     asyncio.run(play())
 

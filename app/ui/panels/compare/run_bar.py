@@ -13,7 +13,7 @@ class RunBar:
     def __init__(self, gui: viser.GuiApi, desk: CompareDesk) -> None:
         self._go = gui.add_button("Compare them", icon=viser.Icon.SCALE, color="blue")
         self._bar = gui.add_progress_bar(0.0, animated=True, visible=False)
-        self._cancel = gui.add_button("Cancel", icon=viser.Icon.X, visible=False)
+        self._cancel = gui.add_button("Cancel the comparison", icon=viser.Icon.X, visible=False)
         self._desk = desk
         desk.series.progressed.connect(self._show_progress)
 

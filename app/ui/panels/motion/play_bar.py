@@ -35,6 +35,7 @@ class PlayBar:
             initial_value="1×",
             hint="1× is real time",
         )
+        self._again = gui.add_checkbox(f"Repeat{self._the_what}", False, hint="Begins again at the end")
         self._pace = Paced(self._refresh, REFRESH_S)
         playback.moved.connect(lambda _: self._pace.request())
         playback.playing_changed.connect(lambda _: self._refresh())
@@ -51,6 +52,8 @@ class PlayBar:
             if self._time.max != longest:
                 show_value(self._time, min(self._time.value, longest))
                 self._time.max = longest
+        if self._in_use:
+            self._playback.repeats = self._again.value
         self._refresh()
 
     def close(self) -> None:
@@ -90,6 +93,11 @@ class PlayBar:
         async def _(_: viser.GuiEvent[viser.GuiDropdownHandle[str]]) -> None:
             if self._in_use:
                 playback.speed = self._speed_said
+
+        @self._again.on_update
+        async def _(event: viser.GuiEvent[viser.GuiCheckboxHandle]) -> None:
+            if self._in_use:
+                playback.repeats = event.target.value
 
     def _refresh(self) -> None:
         playing = self._in_use and self._playback.playing

@@ -55,8 +55,8 @@ def ranked(page: Page) -> Locator:
 
 def compare(page: Page, laws: int) -> None:
     press(page, RUN)
-    page.get_by_role("button", name="Cancel", exact=True).wait_for(timeout=2_000)
-    page.get_by_role("button", name="Cancel", exact=True).wait_for(state="hidden", timeout=60_000)
+    page.get_by_role("button", name="Cancel the comparison", exact=True).wait_for(timeout=2_000)
+    page.get_by_role("button", name="Cancel the comparison", exact=True).wait_for(state="hidden", timeout=60_000)
     wait_until(page, lambda: len(order(page)) == laws, "table of all laws")
 
 
