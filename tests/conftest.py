@@ -12,7 +12,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as `app.cli` does, before 
 
 import pytest
 from hypothesis import settings
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page, expect, sync_playwright
 from xdist.scheduler import LoadFileScheduling
 
 from tests.support.browser import CHROMIUM, DESKTOP, PHONE, SKETCHY, PageFactory, Screen, launch, new_page
@@ -22,6 +22,7 @@ from tests.support.server import RunningServer, ServerFactory, running_deltalab
 # Speed lives in the benchmarks. CI tries the same examples every time; new ones are found at the desk.
 settings.register_profile("unhurried", deadline=None, derandomize=os.environ.get("CI") == "true")
 settings.load_profile("unhurried")
+expect.set_options(timeout=20_000)  # two workers may draw pages at once
 
 
 LATE_PAGES = "tests/ui/motion/"
@@ -83,13 +84,14 @@ def browser() -> Iterator[Browser]:
 
 
 @contextmanager
-def visitors(browser: Browser) -> Iterator[PageFactory]:
-    """Pages of fresh visitors; an uncaught script error in one of them is a failure."""
+def visitors(browser: Browser, script: str = "") -> Iterator[PageFactory]:
+    """Pages of fresh visitors, which run `script` first; an uncaught script error in one of them is a failure."""
     pages: list[Page] = []
     errors: list[str] = []
 
     def make(screen: Screen = DESKTOP) -> Page:
         page = new_page(browser, screen)
+        page.add_init_script(script)
         page.on("pageerror", lambda error: errors.append(str(error)))
         pages.append(page)
         return page

@@ -40,6 +40,19 @@ GRIP = 0.75
 RING = 0.65
 """Radius of a gizmo's ring, relative to its scale."""
 
+SLOW_SCREEN = """{
+  const request = window.requestAnimationFrame.bind(window), cancel = window.cancelAnimationFrame.bind(window);
+  const turn = new WeakMap();
+  window.requestAnimationFrame = (draw) => {
+    const frame = (time) => { turn.set(draw, performance.now() + 200); draw(time); };
+    const wait = (turn.get(draw) ?? 0) - performance.now();
+    return wait > 0 ? -setTimeout(() => frame(performance.now()), wait) : request(frame);
+  };
+  window.cancelAnimationFrame = (id) => id < 0 ? clearTimeout(-id) : cancel(id);
+}"""
+"""Script of a page that paints its scene five times a second, not as often as the processor can, and leaves time to
+others. Only what asks again and again has to wait. Not for tests that drag."""
+
 _READY = """(nodes) => {
   const page = window.__viserMutable, tree = window.__viserSceneTree;
   if (!page || !tree || !page.canvas || !page.camera || !page.cameraControl) return false;

@@ -15,11 +15,11 @@ from app.ui.compare.jobs import Result
 from app.ui.compare.score import LATER, STRETCHES, WHOLE, Score, quantities, ranking
 from app.ui.compare.settings import CompareSettings, default_compare, difference, tasks_for
 from app.ui.compute import Worker
-from app.ui.drawing.series import Series
 from app.ui.motion.desk import MotionDesk
 from app.ui.panels.compare.bars import effort_bars, error_bars
 from app.ui.panels.compare.ranking_table import ranking_table, verdict
 from app.ui.refusal import Refusal
+from app.ui.series import Series
 from app.ui.session import Session
 from app.ui.state import Memory
 from tests.support.small_lab import eventually

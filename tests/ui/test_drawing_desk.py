@@ -21,9 +21,9 @@ from app.ui.compute import Worker
 from app.ui.drawing import jobs
 from app.ui.drawing.desk import DrawingDesk
 from app.ui.drawing.jobs import Plan, Sketch, TooDense
-from app.ui.drawing.series import Series
 from app.ui.drawing.settings import default_settings, lies_flat, resized, turned, with_mode, with_preset
 from app.ui.refusal import Refusal
+from app.ui.series import Series
 from app.ui.session import Session
 from app.ui.state import Memory
 

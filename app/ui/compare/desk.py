@@ -13,9 +13,9 @@ from app.robots import Robot
 from app.ui.compare.jobs import Result, run_law
 from app.ui.compare.score import LATER, POSITION, WHOLE, Score, ranking
 from app.ui.compare.settings import FEWEST_LAWS, MOST_LAWS, PLANNED, CompareSettings, default_compare, difference
-from app.ui.drawing.series import Series
 from app.ui.motion.desk import MotionDesk
 from app.ui.refusal import Refusal
+from app.ui.series import Series
 from app.ui.session import Session, Signal
 
 HELICES = frozenset({"T1", "T2"})

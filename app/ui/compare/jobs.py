@@ -66,6 +66,7 @@ def experiment(settings: CompareSettings, law: str, dimensions: dict[str, float]
         delay_samples=settings.delay_samples,
         velocity_filter_hz=settings.velocity_filter_hz,
         limit_effort=settings.limit_effort,
+        limit_speed=settings.limit_speed,
     )
 
 

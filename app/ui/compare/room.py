@@ -8,7 +8,6 @@ from app.ui.compare.desk import CompareDesk
 from app.ui.compare.jobs import comparison_csv
 from app.ui.compare.scene import CompareScene
 from app.ui.downloads import send
-from app.ui.drawing.series import Series
 from app.ui.motion.desk import MotionDesk
 from app.ui.motion.surroundings import MotionSurroundings
 from app.ui.panels.compare.effects_panel import EffectsPanel
@@ -17,6 +16,7 @@ from app.ui.panels.compare.results_panel import ResultsPanel
 from app.ui.panels.compare.run_bar import RunBar
 from app.ui.panels.compare.standings import Standings
 from app.ui.panels.compare.task_panel import TaskPanel
+from app.ui.series import Series
 
 
 class CompareRoom:

@@ -75,6 +75,7 @@ class CompareSettings:
     velocity_filter_hz: float = 0.0
     """0: ideal."""
     limit_effort: bool = True
+    limit_speed: bool = False
     plant: PlantName = "exact"
 
     def bandwidth_of(self, law: str) -> float | None:
@@ -122,5 +123,6 @@ def _spoken(settings: CompareSettings) -> list[tuple[str, str]]:
         ("delay", f"{s.delay_samples} samples"),
         ("speed filter", f"{s.velocity_filter_hz:g} Hz" if s.velocity_filter_hz else "none"),
         ("torque limits", "on" if s.limit_effort else "off"),
+        ("speed limits", "on" if s.limit_speed else "off"),
         ("plant", PLANTS[s.plant]),
     ]

@@ -10,7 +10,6 @@ from app.ui.drawing.desk import DrawingDesk
 from app.ui.drawing.jobs import Sketch
 from app.ui.drawing.player import DrawingPlayer
 from app.ui.drawing.scene import DrawingScene
-from app.ui.drawing.series import Series
 from app.ui.drawing.surroundings import Surroundings
 from app.ui.panels.drawing.compare_panel import ComparePanel
 from app.ui.panels.drawing.export_panel import ExportPanel
@@ -24,6 +23,7 @@ from app.ui.panels.drawing.sheet_panel import SheetPanel
 from app.ui.panels.drawing.source_panel import SourcePanel
 from app.ui.playback import Playback
 from app.ui.plots import PLOT_STYLE
+from app.ui.series import Series
 
 PHONE_PICTURE = "20vh"
 """Height of the drawing that also stands above the settings on a phone, where the panels are far apart."""

@@ -10,7 +10,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from app.motion import CYCLES, plan_work_cycle
-from tests.support.browser import PHONE, PageFactory, open_page, screenshot, wait_ready, wait_until
+from tests.support.browser import PageFactory, open_page, screenshot, wait_ready, wait_until
 from tests.support.plots import chart
 from tests.support.server import RunningServer, running_deltalab
 from tests.support.widgets import choose, open_tab, set_slider, toggle
@@ -107,15 +107,3 @@ def test_a_map_appears_follows_its_sliders_and_goes(page: Page):
 
 def known(page: Page, node: str) -> bool:
     return page.evaluate("name => name in window.__viserSceneTree.getState()", node)
-
-
-def test_on_a_phone_belts_and_map_are_there_too(visit: PageFactory, server: RunningServer):
-    page = visit(PHONE)
-    enter(page, server)
-    page.get_by_text("Maps", exact=True).first.click()
-    toggle(page, "Show a map")
-    wait_until(page, lambda: known(page, f"{MAP}/sheet"), "map")
-    page.get_by_text("Slice height (mm)").scroll_into_view_if_needed()
-    screenshot(page, "map-phone")
-    overflow = page.evaluate("() => document.documentElement.scrollWidth - window.innerWidth")
-    assert overflow <= 0, "nothing sticks out of a phone's screen"

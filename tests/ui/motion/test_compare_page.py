@@ -15,6 +15,7 @@ from tests.support.widgets import choose, open_tab, press, set_slider, toggle
 
 ROOT = "/robot/compare"
 RUN = "Compare them"
+_HAS_MAP = "() => '/robot/map/sheet' in window.__viserSceneTree.getState()"
 pytestmark = pytest.mark.browser
 
 
@@ -115,13 +116,22 @@ def test_the_work_cycle_of_the_five_bar(lab: Page):
     screenshot(page, "compare-dark", 2.0)
 
 
-def test_on_a_phone_the_table_stands_below_the_button(server: RunningServer, visit: PageFactory):
+def test_on_a_phone_all_is_in_one_sheet(server: RunningServer, visit: PageFactory):
     page = visit(PHONE)
     open_page(page, server.url)
     enter(page)
+    above = page.locator(".deltalab-verdict").first.bounding_box()
+    below = page.get_by_label("Curve", exact=True).bounding_box()
+    assert above and below and above["y"] < below["y"], "what comes of the settings is seen while they are set"
+    screenshot(page, "motion-phone")
     compare(page, 3)
     assert order(page) == ["CTC", "PID", "PD"]
-    overflow = page.evaluate("() => document.documentElement.scrollWidth - window.innerWidth")
-    assert overflow <= 0, "nothing sticks out of a phone's screen"
     ranked(page).scroll_into_view_if_needed()
     screenshot(page, "compare-phone")
+    page.get_by_text("Maps", exact=True).first.click()
+    toggle(page, "Show a map")
+    wait_until(page, lambda: page.evaluate(_HAS_MAP), "map")
+    page.get_by_text("Slice height (mm)").scroll_into_view_if_needed()
+    screenshot(page, "map-phone")
+    overflow = page.evaluate("() => document.documentElement.scrollWidth - window.innerWidth")
+    assert overflow <= 0, "nothing sticks out of a phone's screen"

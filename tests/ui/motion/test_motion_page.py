@@ -15,7 +15,7 @@ from playwright.sync_api import Locator, Page, expect
 from app.motion import default_motion, plan_motion
 from app.robots import ROBOTS
 from app.ui import theme
-from tests.support.browser import PHONE, PageFactory, node_pose, open_page, screenshot, wait_ready, wait_until
+from tests.support.browser import PageFactory, node_pose, open_page, screenshot, wait_ready, wait_until
 from tests.support.plots import Chart, chart
 from tests.support.server import RunningServer, running_deltalab
 from tests.support.widgets import button, choose, open_tab, press, set_slider, slider_box, toggle, type_into
@@ -204,17 +204,3 @@ def test_the_work_cycle_follows_its_belts_and_survives_a_reload(lab: Page):
     enter(page)
     expect(page.get_by_label("Show", exact=True)).to_have_value("Work cycle")
     expect(page.get_by_label("Preset", exact=True)).to_have_value("My own")
-
-
-def test_on_a_phone_verdict_and_play_stand_above_the_settings(visit, server: RunningServer):
-    page = visit(PHONE)
-    open_motion(page, server)
-    above = verdict(page).bounding_box()
-    below = page.get_by_label("Curve", exact=True).bounding_box()
-    assert above and below and above["y"] < below["y"]
-    press(page, "Play")
-    first = node_pose(page, TOOL)
-    wait_until(page, lambda: node_pose(page, TOOL) != first, "robot on its way")
-    overflow = page.evaluate("() => document.documentElement.scrollWidth - window.innerWidth")
-    assert overflow <= 0, "nothing sticks out of a phone's screen"
-    screenshot(page, "motion-phone")

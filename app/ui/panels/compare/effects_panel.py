@@ -58,12 +58,16 @@ class EffectsPanel:
             )
             self._filter = gui.add_dropdown("Speed filter", tuple(FILTERS), hint="Of the speed found from the encoder")
             self._limits = gui.add_checkbox("Torque limits", settings.limit_effort)
+            self._speeds = gui.add_checkbox(
+                "Speed limits", settings.limit_speed, hint="Beyond its largest speed a drive brakes but does not push"
+            )
         self._plant = gui.add_dropdown(
             "Plant", tuple(PLANT_KEYS), initial_value=PLANTS[settings.plant], hint="What stands in for the real robot"
         )
         self._listen_to_numbers()
         self._listen_to_choices()
         desk.settings_changed.connect(self._follow)
+        self._follow(settings)
 
     def _listen_to_numbers(self) -> None:
         desk = self._desk
@@ -99,6 +103,10 @@ class EffectsPanel:
         async def _(event: viser.GuiEvent[viser.GuiCheckboxHandle]) -> None:
             desk.change(limit_effort=event.target.value)
 
+        @self._speeds.on_update
+        async def _(event: viser.GuiEvent[viser.GuiCheckboxHandle]) -> None:
+            desk.change(limit_speed=event.target.value)
+
         @self._plant.on_update
         async def _(event: viser.GuiEvent[viser.GuiDropdownHandle[str]]) -> None:
             desk.change(plant=PLANT_KEYS[event.target.value])
@@ -112,6 +120,7 @@ class EffectsPanel:
         show_value(self._error, round(100.0 * settings.model_error))
         show_value(self._delay, settings.delay_samples)
         show_value(self._limits, settings.limit_effort)
+        show_value(self._speeds, settings.limit_speed)
         show_value(self._plant, PLANTS[settings.plant])
 
 

@@ -6,10 +6,10 @@ import viser
 
 from app.ui.compute import Worker
 from app.ui.drawing.desk import DrawingDesk
-from app.ui.drawing.series import Series
 from app.ui.panels.drawing.arm_panel import ArmPanel
 from app.ui.panels.drawing.robots_panel import RobotsPanel
 from app.ui.panels.drawing.sweep_panel import SweepPanel
+from app.ui.series import Series
 
 
 class ComparePanel:

@@ -11,10 +11,10 @@ from app.drawing.compare import RobotResult
 from app.robots import ROBOTS
 from app.ui.drawing.compare_jobs import on_robot
 from app.ui.drawing.desk import DrawingDesk
-from app.ui.drawing.series import Series
 from app.ui.panels.drawing.preview_panel import duration
 from app.ui.panels.tables import table
 from app.ui.panels.text import small
+from app.ui.series import Series
 
 ABOUT = (
     "Each robot draws it on a sheet that lies where it has room, with the joint limits that README and code declare. "

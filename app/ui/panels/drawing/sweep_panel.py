@@ -15,12 +15,12 @@ from app.ui.downloads import offer
 from app.ui.drawing.compare_jobs import sweep_point
 from app.ui.drawing.desk import DrawingDesk
 from app.ui.drawing.jobs import Sketch
-from app.ui.drawing.series import Series
 from app.ui.panels.drawing.preview_panel import duration
 from app.ui.panels.options import show_options
 from app.ui.panels.tables import table
 from app.ui.panels.text import small
 from app.ui.plots import Axes, Curve, Plot
+from app.ui.series import Series
 
 ABOUT = (
     "A finer drawing takes longer. Sweep one setting: each point is a whole drawing, timed on the robot, and its ink "
