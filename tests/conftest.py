@@ -22,21 +22,15 @@ from tests.support.server import RunningServer, ServerFactory, running_deltalab
 # Speed lives in the benchmarks. CI tries the same examples every time; new ones are found at the desk.
 settings.register_profile("unhurried", deadline=None, derandomize=os.environ.get("CI") == "true")
 settings.load_profile("unhurried")
-expect.set_options(timeout=20_000)  # two workers may draw pages at once
-
-
-LATE_PAGES = "tests/ui/motion/"
-"""Pages that a second worker draws, when it has done everything else."""
+expect.set_options(timeout=20_000)  # a page may have little of the processor
 
 
 class ByFile(LoadFileScheduling):
-    """A file's tests stay together, and one worker draws most pages: two would take each other's time."""
+    """A file's tests stay together, and one worker draws all pages: two would take each other's time."""
 
     def _split_scope(self, nodeid: str) -> str:
         path = nodeid.partition("::")[0]
-        if not draws_pages(path):
-            return path
-        return "late pages" if path.startswith(LATE_PAGES) else "pages"
+        return "browser" if draws_pages(path) else path
 
 
 @functools.cache
@@ -60,11 +54,9 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if "browser" in getattr(item, "fixturenames", ()):
             item.add_marker("browser")
 
-    def turn(item: pytest.Item) -> tuple[int, bool]:
-        path = item.nodeid.partition("::")[0]
-        late = path.startswith(LATE_PAGES)
-        long = item.get_closest_marker("long") is not None or (draws_pages(path) and not late)
-        return 0 if long else 2 if late else 1, item.get_closest_marker("browser") is not None
+    def turn(item: pytest.Item) -> tuple[bool, bool]:
+        long = item.get_closest_marker("long") is not None or draws_pages(item.nodeid.partition("::")[0])
+        return not long, item.get_closest_marker("browser") is not None
 
     items.sort(key=turn)
 

@@ -147,6 +147,7 @@ def test_a_typed_pose_moves_robot_gizmo_and_sliders(lab: Page):
     wait_until(
         page, lambda: abs(float(slider_box(page, "q1 (deg)").input_value()) - joints[0]) < 0.06, "slider in step"
     )
+    wait_until(page, lambda: agree(page), "panel in step: a number typed before that could be overwritten")
     type_into(page, "z (mm)", -900)
     expect(page.get_by_text(re.compile("too short|upper arm")).first).to_be_visible()
     wait_until(page, lambda: agree(page) and shown_mm(page)[2] > -600, "pose brought back into reach")
