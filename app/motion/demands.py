@@ -11,7 +11,6 @@ shortest T is found without iteration.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -19,6 +18,7 @@ import numpy as np
 from app.motion.placed import PlacedCurve
 from app.motion.trajectory import Array
 from app.robots.dynamics import Dynamics
+from app.robots.dynamics.elementwise import stacked
 from app.robots.limits import DriveLimits
 
 KINDS = ("speed", "acceleration", "effort")
@@ -55,9 +55,9 @@ def demands_along(dynamics: Dynamics, curve: PlacedCurve, s: Array, limits: Driv
     """At s (k,) of a curve."""
     pose, first, second = curve.at(s)
     terms = dynamics.columns(pose, first)
-    joint_first, joint_second = table(terms.joint_rates), table(terms.joint_acceleration(tuple(second.T)))
-    gravity = table(terms.gravity())
-    effort_first, effort_second = table(terms.inertial(terms.rate)), table(terms.effort(tuple(second.T))) - gravity
+    joint_first, joint_second = stacked(terms.joint_rates), stacked(terms.joint_acceleration(tuple(second.T)))
+    gravity = stacked(terms.gravity())
+    effort_first, effort_second = stacked(terms.inertial(terms.rate)), stacked(terms.effort(tuple(second.T))) - gravity
     nothing = np.zeros_like(joint_first)
     return Demands(
         np.hstack([nothing, joint_first, effort_first]),
@@ -65,8 +65,3 @@ def demands_along(dynamics: Dynamics, curve: PlacedCurve, s: Array, limits: Driv
         np.hstack([nothing, nothing, gravity]),
         np.concatenate([limits.speed**2, limits.acceleration, limits.effort]),
     )
-
-
-def table(columns: Iterable[Array | float]) -> Array:
-    """(k, n) from n columns (k,), some of which may be a single number."""
-    return np.stack(np.broadcast_arrays(*columns), axis=-1)

@@ -9,12 +9,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.motion.demands import KINDS, table
+from app.motion.demands import KINDS
 from app.motion.settings import MotionSettings
 from app.motion.trajectory import Array, Trajectory
 from app.motion.work_cycle import WorkCycle
 from app.robots import Robot
 from app.robots.dynamics import Dynamics
+from app.robots.dynamics.elementwise import stacked
 from app.robots.limits import DriveLimits
 
 STEP_S, FEWEST, MOST = 0.002, 400, 4000
@@ -107,8 +108,8 @@ def record(
     t = instants(trajectory.duration_s, corners)
     state = pose, rate, acceleration = trajectory.sample(t)
     terms, push = dynamics.columns(pose, rate), tuple(acceleration.T)
-    efforts = table(terms.effort(push)) if effort is None else effort(t, *state)
-    joint_rates, joint_accelerations = table(terms.joint_rates), table(terms.joint_acceleration(push))
+    efforts = stacked(terms.effort(push)) if effort is None else effort(t, *state)
+    joint_rates, joint_accelerations = stacked(terms.joint_rates), stacked(terms.joint_acceleration(push))
     shares = shares_of(joint_rates, joint_accelerations, efforts, limits)
     return Motion(
         settings=settings,
@@ -117,7 +118,7 @@ def record(
         pose=pose,
         rate=rate,
         acceleration=acceleration,
-        q=table(terms.joints),
+        q=stacked(terms.joints),
         joint_rates=joint_rates,
         joint_accelerations=joint_accelerations,
         efforts=efforts,

@@ -94,7 +94,14 @@ def check_reach(robot: Robot, poses: Array, advice: str) -> None:
     """Raises:
     MotionError: if one of the poses (k, dof) is out of reach.
     """
+    if found := obstacle(robot, poses):
+        raise MotionError(f"{found}: {advice}.")
+
+
+def obstacle(robot: Robot, poses: Array) -> str:
+    """What stops a robot on its way through poses (k, dof), the beginning of a sentence; empty where nothing does."""
     outside = ~robot.reachable(poses)
-    if outside.any():
-        reason = robot.reach(poses[int(np.argmax(outside))]).reason.rstrip(".")
-        raise MotionError(f"Part of the path is out of reach ({reason[:1].lower()}{reason[1:]}): {advice}.")
+    if not outside.any():
+        return ""
+    reason = robot.reach(poses[int(np.argmax(outside))]).reason.rstrip(".")
+    return f"Part of the path is out of reach ({reason[:1].lower()}{reason[1:]})"

@@ -11,7 +11,7 @@ from app.motion.pieces import Pieces
 from app.motion.placed import check_reach
 from app.motion.trajectory import Array, MotionError, Sample
 from app.robots import Robot
-from app.robots.dynamics import Dynamics, dynamics_of
+from app.robots.dynamics import Dynamics
 from app.robots.limits import DriveLimits
 
 RISE_S = 0.03
@@ -40,7 +40,7 @@ class JointMove:
         pose = self.robot.forward(q)
         J = self.robot.jacobian(pose)
         rate = _solved(J, rates)
-        drift = dynamics_of(self.robot).joint_accelerations(pose, rate, np.zeros_like(rate))
+        drift = self.robot.dynamics.joint_accelerations(pose, rate, np.zeros_like(rate))
         return Sample(pose, rate, _solved(J, accelerations - drift))
 
 
@@ -57,7 +57,7 @@ def point_to_point(robot: Robot, start_pose: ArrayLike, end_pose: ArrayLike, lim
     t = np.linspace(0.0, move.duration_s, CHECKED)
     if not robot.reachable(robot.forward(move.joints.at(t)[0])).all():
         raise MotionError("The straight way between these joints leaves the workspace; go by way of another pose.")
-    factor = _slower(dynamics_of(robot), move.sample(t), limits.effort)
+    factor = _slower(robot.dynamics, move.sample(t), limits.effort)
     return JointMove(move.title, robot, move.joints.stretched(factor))
 
 

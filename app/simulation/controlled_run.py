@@ -11,7 +11,6 @@ import numpy as np
 from app.control.laws import Tuning
 from app.motion.cycle_items import ItemFlow
 from app.robots import build_robot
-from app.robots.dynamics import dynamics_of
 from app.simulation.run import Array, Run
 
 AT_LIMIT = 1.0 - 1e-9
@@ -71,7 +70,7 @@ class ControlledRun(Run):
     @cached_property
     def qd(self) -> Array:
         """(k, n) joint rates, rad/s or m/s"""
-        return dynamics_of(build_robot(self.robot, self.dimensions)).joint_rates(self.pose, self.rate)
+        return build_robot(self.robot, self.dimensions).dynamics.joint_rates(self.pose, self.rate)
 
     @property
     def peak(self) -> Array:

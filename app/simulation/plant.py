@@ -64,6 +64,15 @@ class Friction:
         coulomb, viscous = (tuple([factor * value for value in values]) for values in (self.coulomb, self.viscous))
         return Friction(coulomb, viscous, self.width)
 
+    def at(self, rates: Sequence[float]) -> tuple[list[float], list[float]]:
+        """Per joint at rates (n,): friction, N m or N, and its slope by the rate, N m s or N s/m."""
+        forces, slopes, w = [], [], self.width
+        for c, b, v in zip(self.coulomb, self.viscous, rates, strict=True):
+            bend = math.tanh(v / w)
+            forces.append(c * bend + b * v)
+            slopes.append(c * (1.0 - bend * bend) / w + b)
+        return forces, slopes
+
 
 FRICTION: dict[str, Friction] = {
     "par4": Friction((0.30,) * 4, (0.10,) * 4, 0.01),
@@ -156,21 +165,16 @@ class Drag:
     """Friction within a step. `rows`: Coulomb, viscous, 1 / width, steepest slope and 1 / 2 M_j of each joint."""
 
     def __init__(self, friction: Friction, masses: Sequence[float]) -> None:
+        self._friction = friction
+        self._half_1_m = [0.5 / m for m in masses]
         per_width = 1.0 / friction.width
-        columns = friction.coulomb, friction.viscous, masses
-        self.rows = [(c, b, per_width, c * per_width, 0.5 / m) for c, b, m in zip(*columns, strict=True)]
+        columns = friction.coulomb, friction.viscous, self._half_1_m
+        self.rows = [(c, b, per_width, c * per_width, half_1_m) for c, b, half_1_m in zip(*columns, strict=True)]
 
     def left_over(self, now: Terms, effort: Sequence[float], step: float) -> list[float]:
         """Efforts (n,) minus the friction's mean over the step."""
-        tanh, half = math.tanh, 0.5 * step
-        start, yields = [], []
-        for f, qd, (coulomb, viscous, per_width, steepest, half_1_m) in zip(
-            effort, now.joint_rates, self.rows, strict=True
-        ):
-            bend = tanh(per_width * qd)
-            start.append(f - coulomb * bend - viscous * qd)
-            slope = viscous + steepest * (1.0 - bend * bend)
-            yields.append(half * slope / (1.0 + step * slope * half_1_m))
-        moved = now.to_joints(now.acceleration(start))
-        rows = zip(start, yields, moved, now.joint_bias, strict=True)
-        return [f - share * (qdd + h) for f, share, qdd, h in rows]
+        forces, slopes = self._friction.at(now.joint_rates)
+        start = [f - force for f, force in zip(effort, forces, strict=True)]
+        moved, half = now.to_joints(now.acceleration(start)), 0.5 * step
+        rows = zip(start, slopes, self._half_1_m, moved, now.joint_bias, strict=True)
+        return [f - half * slope / (1.0 + step * slope * k) * (qdd + h) for f, slope, k, qdd, h in rows]

@@ -13,6 +13,7 @@ from app.control import Motor, Pid
 from app.control.drives import DRIVES
 from app.control.sampled_pid import Sampling
 from app.motion import Tour, quintic
+from app.motion.placed import obstacle
 from app.robots import Robot, build_robot
 from app.simulation import sampled_loop, simulink_loop
 from app.simulation.hardware import Hardware
@@ -137,8 +138,6 @@ def _check_limit(u_max: float) -> None:
 
 
 def _reachable(robot: Robot, poses: Array) -> Array:
-    outside = ~robot.reachable(poses)
-    if outside.any():
-        reason = robot.reach(poses[int(np.argmax(outside))]).reason.rstrip(".")
-        raise TrackingError(f"Part of the path is out of reach ({reason[:1].lower()}{reason[1:]}): make it smaller.")
+    if found := obstacle(robot, poses):
+        raise TrackingError(f"{found}: make it smaller.")
     return poses

@@ -142,7 +142,7 @@ class Playback:
     def _show(self) -> None:
         if self._run is None:
             return
-        k = min(int(np.searchsorted(self._run.t, self.time_s)), len(self._run.t) - 1)
+        k = instant_at(self._run.t, self.time_s)
         self._showing = True
         self._session.replay(self._run.pose[k].tolist(), self._run.q[k].tolist())
         self._showing = False
@@ -151,6 +151,11 @@ class Playback:
     def _give_way(self) -> None:
         if not self._showing:
             self.pause()
+
+
+def instant_at(t: NDArray[np.float64], time_s: float) -> int:
+    """Index of the first of times t (k,) at or after this one; of the last where there is none."""
+    return min(int(np.searchsorted(t, time_s)), len(t) - 1)
 
 
 def _pleasant_speed(duration_s: float) -> float:

@@ -117,49 +117,26 @@ class Room:
         bench = Bench(client, width)
         access = RobotAccess(client, session, gizmo, self._shapes, self._workshop, self.browser)
         lab = ControlRoom(client, session, control_tab, bench, self._quick_worker(), self._worker, self._tell, access)
-        motion = TabDoor(
-            client,
-            "Motion",
-            lambda: _motion_room(
-                MotionSurroundings(
-                    client,
-                    session,
-                    motion_tab,
-                    bench,
-                    gizmo,
-                    stage,
-                    self._shapes,
-                    self._quick_worker,
-                    self._worker,
-                    self._tell,
-                )
-            ),
+        quick, slow = self._quick_worker, self._worker
+        drawn = Surroundings(client, session, gizmo, stage, draw_tab, bench, access, quick, slow)
+        moved = MotionSurroundings(
+            client, session, motion_tab, bench, gizmo, stage, self._shapes, quick, slow, self._tell
         )
-        drawing = TabDoor(
+        motion = TabDoor(client, "Motion", lambda: _motion_room(moved))
+        drawing = TabDoor(client, "Draw", lambda: _drawing_room(drawn))
+        wired = HardwareSurroundings(
             client,
-            "Draw",
-            lambda: _drawing_room(
-                Surroundings(client, session, gizmo, stage, draw_tab, bench, access, self._quick_worker, self._worker)
-            ),
+            session,
+            hardware_tab,
+            bench,
+            access,
+            quick,
+            slow,
+            drawing=lambda: drawing.room and drawing.room.drawing,
+            run=lambda: lab.run,
+            use_motor=lab.use_motor,
         )
-        hardware = TabDoor(
-            client,
-            "Hardware",
-            lambda: _hardware_room(
-                HardwareSurroundings(
-                    client,
-                    session,
-                    hardware_tab,
-                    bench,
-                    access,
-                    self._quick_worker,
-                    self._worker,
-                    drawing=lambda: drawing.room and drawing.room.drawing,
-                    run=lambda: lab.run,
-                    use_motor=lab.use_motor,
-                )
-            ),
-        )
+        hardware = TabDoor(client, "Hardware", lambda: _hardware_room(wired))
         self._closers += [overlay.close, ghosts.close, robot_panel.close, lab.close]
         self._closers += [motion.close, drawing.close, hardware.close, access.close]
 

@@ -22,8 +22,8 @@ import tyro
 from app.drawing.compose import compose
 from app.drawing.order import order_strokes
 from app.drawing.toolpath import Toolpath, track
-from app.drawing.toolpath.limits import rate_limits
 from app.drawing.vectorise import vectorise
+from app.robots.limits import rate_limits
 from tests.benchmarks.drawing_order import random_lines
 from tests.benchmarks.drawing_peers import ask, pack, unpack
 from tests.benchmarks.drawing_photos import (

@@ -20,8 +20,8 @@ import cv2
 import numpy as np
 
 from app.drawing.toolpath import PenSettings, Toolpath, default_placement, plan_toolpath
-from app.drawing.toolpath.limits import RateLimits, rate_limits
 from app.robots import ROBOTS, make_robot
+from app.robots.limits import RateLimits, rate_limits
 from app.robots.robot import Array
 
 REPEATS = 3

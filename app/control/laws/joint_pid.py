@@ -7,8 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from app.control.laws.integral import integral_of
-from app.control.laws.law import Array, Law, Seen, Setup, table
+from app.control.laws.law import Array, Law, Seen, Setup
 from app.robots.dynamics import Terms
+from app.robots.dynamics.elementwise import stacked
 
 
 class JointPid(Law):
@@ -48,7 +49,7 @@ class JointPid(Law):
         if self._integral is not None:
             parts["i"] = np.array(self._ki) * np.array(self._integral.trace)
         if self._gravity:
-            parts["n"] = table(seen.terms.gravity(), len(seen.joints))
+            parts["n"] = stacked(seen.terms.gravity(), seen.joints.shape[:1])
         if self._forward is not None:
             parts["ff"] = self._forward
         return parts

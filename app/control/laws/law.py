@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from app.control.laws.tuning import Tuning
 from app.robots.dynamics import Dynamics, Terms
+from app.robots.dynamics.elementwise import stacked
 
 Array = NDArray[np.float64]
 
@@ -80,24 +81,17 @@ class Law(ABC):
         """Component -> (k, n) its share of the efforts wanted; they add up to them."""
 
 
-def table(columns: Sequence[Array | float], count: int) -> Array:
-    """(count, n) of n columns, constants repeated."""
-    return np.column_stack([np.broadcast_to(np.asarray(column, dtype=float), count) for column in columns])
-
-
 def inertial_of_pose(terms: Terms, acceleration: Array) -> Array:
     """(k, n) efforts J^-T M a of tool accelerations (k, dof)."""
-    return table(terms.inertial(tuple(acceleration.T)), len(acceleration))
+    return stacked(terms.inertial(tuple(acceleration.T)), acceleration.shape[:1])
 
 
 def inertial_of_joints(terms: Terms, acceleration: Array) -> Array:
-    """(k, n) efforts M_d qdd of joint accelerations (k, n): what they add to the effort of none."""
-    return table(terms.effort(terms.pose_acceleration(tuple(acceleration.T))), len(acceleration)) - joint_bias(
-        terms, len(acceleration)
-    )
+    """(k, n) efforts M_d qdd of joint accelerations (k, n), M_d = J^-T M J^-1: what they add to the effort of none."""
+    return stacked(terms.inertial(terms.to_pose(tuple(acceleration.T))), acceleration.shape[:1])
 
 
 def joint_bias(terms: Terms, count: int) -> Array:
     """(count, n) H_d: the effort at which no joint accelerates."""
     still = (0.0,) * len(terms.joints)
-    return table(terms.effort(terms.pose_acceleration(still)), count)
+    return stacked(terms.effort(terms.pose_acceleration(still)), (count,))

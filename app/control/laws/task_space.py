@@ -7,8 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from app.control.laws.integral import integral_of
-from app.control.laws.law import Array, Law, Seen, Setup, inertial_of_pose, table
+from app.control.laws.law import Array, Law, Seen, Setup, inertial_of_pose
 from app.robots.dynamics import Terms
+from app.robots.dynamics.elementwise import stacked
 
 
 class TaskSpace(Law):
@@ -41,4 +42,4 @@ class TaskSpace(Law):
         if self._integral is not None:
             parts["i"] = np.array(self._ki) * np.array(self._integral.trace)
         efforts = {name: inertial_of_pose(seen.terms, acceleration) for name, acceleration in parts.items()}
-        return {**efforts, "n": table(seen.terms.bias(), len(seen.pose))}
+        return {**efforts, "n": stacked(seen.terms.bias(), seen.pose.shape[:1])}

@@ -9,7 +9,6 @@ from functools import cache
 from typing import Self
 
 from app.robots import make_robot
-from app.robots.dynamics import dynamics_of
 from app.robots.limits import drive_limits
 
 Gains = tuple[float, ...]
@@ -143,7 +142,7 @@ def _start(robot: str) -> Tuning:
 def _declared(robot: str) -> Tuning:
     """9 Hz and damping 0.7; each joint taken for its inertia at home."""
     machine = make_robot(robot)
-    masses = dynamics_of(machine).mass_matrix(machine.home, "joint").diagonal()
+    masses = machine.dynamics.mass_matrix(machine.home, "joint").diagonal()
     axes = len(masses)
     bound = tuple(0.5 * drive_limits(machine).effort)
     return Tuning((9.0,) * axes, (0.7,) * axes, tuple(map(float, masses)), 10.0, tuple(map(float, bound)))

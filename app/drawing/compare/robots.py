@@ -19,8 +19,8 @@ from app.drawing.toolpath import (
     plan_toolpath,
     unreachable,
 )
-from app.drawing.toolpath.limits import rate_limits
 from app.robots import GeometryError, Robot, build_robot
+from app.robots.limits import rate_limits
 from app.robots.robot import Array
 
 LEAST_SCALE = 0.01

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import minimum_filter1d
 
 from app.drawing.toolpath.filter import STEP_S, TAPS
-from app.drawing.toolpath.limits import RateLimits
 from app.drawing.toolpath.timeline import Timeline
+from app.robots.limits import RateLimits
 from app.robots.robot import Array
 
 MARGIN = 0.99

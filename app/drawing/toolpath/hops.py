@@ -13,10 +13,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from app.drawing.toolpath.limits import RateLimits
 from app.drawing.toolpath.placement import poses
 from app.motion.paths import quintic
 from app.robots import Robot
+from app.robots.limits import RateLimits
 from app.robots.robot import Array
 
 CLEARANCE_M = 1e-3

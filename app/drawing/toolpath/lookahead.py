@@ -21,10 +21,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.drawing.toolpath.filter import WINDOW_S
-from app.drawing.toolpath.limits import RateLimits
 from app.drawing.toolpath.placement import poses
 from app.drawing.toolpath.polyline import Polylines
 from app.robots import Robot
+from app.robots.limits import RateLimits
 from app.robots.robot import Array
 
 SHARE = 0.5

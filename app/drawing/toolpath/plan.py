@@ -14,13 +14,13 @@ from app.drawing.toolpath.check import ToolpathError, check_lines, check_samples
 from app.drawing.toolpath.easing import Ease, Loads, find_loads, slowed
 from app.drawing.toolpath.filter import STEP_S
 from app.drawing.toolpath.hops import between, find_pace
-from app.drawing.toolpath.limits import rate_limits
 from app.drawing.toolpath.lookahead import find_bounds, find_profile
 from app.drawing.toolpath.pen import PenSettings, default_pen
 from app.drawing.toolpath.placement import Placement
 from app.drawing.toolpath.polyline import lay_out
 from app.drawing.toolpath.timeline import Timeline, assemble, sample_count
 from app.robots import Robot
+from app.robots.limits import rate_limits
 from app.robots.robot import Array
 
 LONGEST_S = 3600.0

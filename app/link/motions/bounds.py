@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from app.drawing.toolpath.limits import rate_limits
 from app.link.motions.motion import Joints
 from app.link.protocol.settings import setting_id
 from app.robots import Robot
+from app.robots.limits import rate_limits
 from app.simulation.run import SHOWN
 
 TOOL_SPEED = 0.25

@@ -14,7 +14,7 @@ from typing import Generic, Literal, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.robots.dynamics.elementwise import COLUMNS, FLOATS, Functions, Value, Values
+from app.robots.dynamics.elementwise import COLUMNS, FLOATS, Functions, Value, Values, stacked
 from app.robots.dynamics.inertia import Inertia
 from app.robots.dynamics.terms import Terms
 from app.robots.robot import Array, Robot
@@ -135,7 +135,7 @@ class Dynamics(ABC, Generic[RobotT, InertiaT]):
         p, v, *rest = (tuple(np.ascontiguousarray(np.moveaxis(values, -1, 0))) for values in arrays)
         with np.errstate(all="ignore"):
             values = formula(self._terms(COLUMNS, p, v), *rest)
-        return np.stack([np.broadcast_to(value, arrays[0].shape[:-1]) for value in values], axis=-1)
+        return stacked(values, arrays[0].shape[:-1])
 
     @abstractmethod
     def _bind(self) -> None:

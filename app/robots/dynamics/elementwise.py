@@ -6,10 +6,11 @@ A formula is written once. On floats it costs what a few multiplications cost, o
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 Value = Any
 """A float or a column of floats: the type checkers know no name for what both can do."""
@@ -27,6 +28,11 @@ class Functions(NamedTuple):
 
 FLOATS = Functions(math.sqrt, math.sin, math.cos, math.atan2)
 COLUMNS = Functions(np.sqrt, np.sin, np.cos, np.arctan2)
+
+
+def stacked(values: Iterable[Value], shape: tuple[int, ...] = ()) -> NDArray[np.float64]:
+    """(..., n) of n values side by side, columns or single numbers, which are repeated to `shape` at least."""
+    return np.stack(np.broadcast_arrays(*values, np.empty(shape))[:-1], axis=-1)
 
 
 def reciprocal(value: Value) -> Value:

@@ -109,7 +109,7 @@ class MujocoPlant:
             applied[self._qd] = effort
         for _ in range(steps):
             if self._friction is not None:
-                forces, slopes = friction_at(self._friction, rates[self._qd].tolist())
+                forces, slopes = self._friction.at(rates[self._qd].tolist())
                 for dof, drive, tau, force, slope in zip(self._qd, self._drive, effort, forces, slopes, strict=True):
                     applied[dof] = tau - force
                     armature[dof] = drive + 0.5 * h * slope
@@ -141,14 +141,3 @@ class MujocoPlant:
         moving = np.linalg.lstsq(rows, np.concatenate([np.zeros(d.ne), rate]), rcond=1e-9)[0]
         robot = nv - 6 * len(self.items)  # items come last and ride already
         d.qvel[:robot] = moving[:robot]
-
-
-def friction_at(friction: Friction, rates: Sequence[float]) -> tuple[list[float], list[float]]:
-    """Friction and its slope by the joint's rate, tau_c tanh(v / w) + b v, per joint; N m or N, and N m s or N s/m."""
-    forces, slopes = [], []
-    w = friction.width
-    for c, b, v in zip(friction.coulomb, friction.viscous, rates, strict=True):
-        bend = math.tanh(v / w)
-        forces.append(c * bend + b * v)
-        slopes.append(c * (1.0 - bend * bend) / w + b)
-    return forces, slopes

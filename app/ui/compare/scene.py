@@ -16,6 +16,7 @@ from app.ui.compare.magnified import APART_M, ghost, worst_error_m
 from app.ui.ghost_nodes import GhostNodes
 from app.ui.motion.surroundings import MotionSurroundings
 from app.ui.pacing import Paced
+from app.ui.playback import instant_at
 from app.ui.run_view import enlarged
 
 ROOT = "/robot/compare"
@@ -107,17 +108,13 @@ class CompareScene:
         robot = self._session.robot
         if self._machine is None:
             self._machine = machine_of(robot)
-        places = [ghost(robot, run, _sample(run, time_s), factor) for run in runs.values()]
+        places = [ghost(robot, run, instant_at(run.t, time_s), factor) for run in runs.values()]
         self._ghosts.show(self._machine, places, [theme.law_color(law) for law in runs])
         self._client.flush()
 
     def _forget_machine(self) -> None:
         self._machine = None
         self._ghosts.clear()
-
-
-def _sample(run: ControlledRun, time_s: float) -> int:
-    return min(int(np.searchsorted(run.t, time_s)), len(run.t) - 1)
 
 
 def _paint(part: Part, leg: int | None) -> theme.Rgb:

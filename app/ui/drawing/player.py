@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.drawing.toolpath import Track, pause_after
-from app.ui.playback import Playback
+from app.ui.playback import Playback, instant_at
 from app.ui.session import Session, Signal
 
 State = Literal["empty", "ready", "drawing", "pausing", "paused", "done"]
@@ -88,7 +88,7 @@ class DrawingPlayer:
         """The same at another time."""
         if self._track is None:
             return -1, 0.0, 0
-        k = min(int(np.searchsorted(self._track.t, time_s)), len(self._track.t) - 1)
+        k = instant_at(self._track.t, time_s)
         return int(self._track.stroke[k]), 1e-3 * float(self._track.along_mm[k]), int(self._track.done[k])
 
     def load(self, track: Track | None, speed: float | None = None) -> None:

@@ -11,6 +11,7 @@ from app.robots.parts import MATERIALS, conveyors
 from app.robots.parts.part import Part
 from app.ui.motion.belts_layout import MARKS, MOST_ITEMS, STRAIGHT, Array, Layout, item_places, layout_for, mark_places
 from app.ui.motion.desk import MotionDesk
+from app.ui.playback import instant_at
 
 NODE = "/robot/belts"
 HANDLE_SHARE, HIGHEST_HANDLE = 0.7, 0.010
@@ -133,5 +134,5 @@ class BeltsView:
         run = self._desk.playback.run
         played = run if run is not None else self._desk.motion
         assert played is not None
-        k = min(int(np.searchsorted(played.t, time_s)), len(played.t) - 1)
+        k = instant_at(played.t, time_s)
         return source[k] if isinstance(source, np.ndarray) else source.items_at(time_s, played.pose[k])

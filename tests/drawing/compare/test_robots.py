@@ -16,8 +16,8 @@ from app.drawing.toolpath import (
     plan_toolpath,
     unreachable,
 )
-from app.drawing.toolpath.limits import rate_limits
 from app.robots import ROBOTS, make_robot
+from app.robots.limits import rate_limits
 from tests.drawing.toolpath.shapes import circle, every_kind, line
 
 

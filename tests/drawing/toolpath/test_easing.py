@@ -6,8 +6,8 @@ import numpy as np
 
 from app.drawing.toolpath.easing import Ease, Loads, find_loads, slowed
 from app.drawing.toolpath.filter import TAPS, counted, moving_average
-from app.drawing.toolpath.limits import RateLimits
 from app.drawing.toolpath.timeline import Timeline
+from app.robots.limits import RateLimits
 
 LIMITS = RateLimits(np.array([2.0, 4.0]), np.array([50.0, 10.0]))
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from app.drawing.toolpath.hops import Hops, between, find_pace, pose_at
-from app.drawing.toolpath.limits import rate_limits
 from app.drawing.toolpath.placement import default_placement
 from app.robots import ROBOTS, Robot, make_robot
+from app.robots.limits import rate_limits
 from app.robots.robot import Array
 
 LIFT_M = 0.004

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.drawing.toolpath.limits import RateLimits, rate_limits
 from app.drawing.toolpath.lookahead import Bounds, find_bounds, find_profile
 from app.drawing.toolpath.placement import Placement, default_placement
 from app.drawing.toolpath.polyline import SPACING_M, Polylines, lay_out
 from app.robots import ROBOTS, make_robot
+from app.robots.limits import RateLimits, rate_limits
 from app.robots.robot import Array
 from tests.drawing.toolpath.shapes import circle, every_kind, length, line, random_strokes
 

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.drawing.toolpath import PenSettings, Placement, Toolpath, default_placement, plan, plan_toolpath, sample
-from app.drawing.toolpath.limits import rate_limits
 from app.robots import ROBOTS, Robot, make_robot
+from app.robots.limits import rate_limits
 from app.robots.robot import Array
 from tests.drawing.toolpath.shapes import circle, distances, dot, every_kind, length, line, random_strokes, spiral
 

@@ -8,10 +8,9 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from app.drawing.toolpath.limits import rate_limits
 from app.robots import ROBOTS
 from app.robots.dynamics import INERTIA, InertiaError, LinearInertia, Par4Inertia, dynamics_of
-from app.robots.limits import drive_limits
+from app.robots.limits import drive_limits, rate_limits
 from tests.robots.dynamics.states import EVERY, states
 
 every_inertia = pytest.mark.parametrize("inertia", INERTIA.values(), ids=INERTIA)
