@@ -225,6 +225,7 @@ def unfold_pen(page: Page) -> None:
     if not field(page, "Laser").is_visible():
         page.get_by_text("Pen", exact=True).click()
         field(page, "Laser").wait_for()
+        page.wait_for_timeout(600)  # the folder has unfolded: until then its boxes move under a click
 
 
 def test_every_format_is_saved_as_shown(desk: Page):
