@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from app.robots import build_robot
 from app.robots.dynamics import INERTIA, Dynamics, dynamics_of
 from app.robots.limits import drive_limits
-from app.robots.robot import Array
+from app.robots.robot import EFFORT_UNITS, Array
 from app.robots.slices import extent, slice_poses
 
 SPACING_M = 0.005
@@ -112,7 +112,7 @@ class Mapped:
 
     @property
     def effort_unit(self) -> str:
-        return "N" if self.robot.joint_unit == "m" else "N m"
+        return EFFORT_UNITS[self.robot.joint_unit]
 
 
 MAPS: dict[str, MapKind] = {

@@ -22,6 +22,9 @@ Array = NDArray[np.float64]
 CHUNK = 8192
 """Poses solved at a time: the temporaries of one chunk stay in the processor's cache."""
 
+EFFORT_UNITS = {"rad": "N m", "m": "N"}
+"""What drives a joint, by the joint's unit."""
+
 LIMIT_TOLERANCE = 1e-9
 """A joint this little beyond its limit still counts as standing on it (rad or m)."""
 

@@ -11,6 +11,7 @@ import numpy as np
 from app.control.laws import LAWS, Law, Reference, Seen, Setup
 from app.robots import Robot
 from app.robots.dynamics import Dynamics, dynamics_of
+from app.robots.robot import EFFORT_UNITS
 from app.simulation.closed_loop.carrying import Bodies, Load, PointMass, bodies_at_start
 from app.simulation.closed_loop.drives import Drives
 from app.simulation.closed_loop.experiment import Experiment
@@ -131,7 +132,7 @@ def _recorded(
         q=joints,
         u=effort,
         u_max=limits.effort,
-        effort_unit="N" if robot.joint_units[0] == "m" else "N m",
+        effort_unit=EFFORT_UNITS[robot.joint_unit],
         ise=(errors**2).sum(axis=0) * experiment.sampled_s,
         dimensions=experiment.dimensions,
         pose=pose,

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from app.robots import ROBOTS
+from app.robots.robot import EFFORT_UNITS
+from app.simulation.run import SHOWN
 
 
 class JointUnits(NamedTuple):
@@ -20,6 +21,5 @@ class JointUnits(NamedTuple):
 
 def joint_units(robot: str) -> JointUnits:
     """Degrees and torques, or millimetres and forces."""
-    if ROBOTS[robot].build.joint_unit == "rad":
-        return JointUnits("deg", math.degrees(1.0), "torque", "N m")
-    return JointUnits("mm", 1e3, "force", "N")
+    unit = ROBOTS[robot].build.joint_unit
+    return JointUnits(*SHOWN[unit], "torque" if unit == "rad" else "force", EFFORT_UNITS[unit])
