@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import os
+import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from typing import Any
@@ -15,9 +16,12 @@ from hypothesis import settings
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 from xdist.scheduler import LoadFileScheduling
 
-from tests.support.browser import CHROMIUM, DESKTOP, PHONE, SKETCHY, PageFactory, Screen, launch, new_page
+from tests.support.browser import CHROMIUM, DESKTOP, PHONE, SKETCHY, SLOW_SCREEN, PageFactory, Screen, launch, new_page
 from tests.support.imports import ROOT
 from tests.support.server import RunningServer, ServerFactory, running_deltalab
+
+_user_data = tempfile.TemporaryDirectory(prefix="deltalab-test-")
+os.environ["XDG_DATA_HOME"] = _user_data.name  # nobody's own progress is touched
 
 # Speed lives in the benchmarks. CI tries the same examples every time; new ones are found at the desk.
 settings.register_profile("unhurried", deadline=None, derandomize=os.environ.get("CI") == "true")
@@ -61,29 +65,67 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=turn)
 
 
+class PageFiles:
+    """What the files that draw pages share, since each start of it takes seconds."""
+
+    def __init__(self) -> None:
+        self._open = ExitStack()
+        self._browser: Browser | None = None
+        self._server: RunningServer | None = None
+
+    @property
+    def browser(self) -> Browser:
+        if self._browser is None:
+            playwright = self._open.enter_context(sync_playwright())
+            self._browser = launch(playwright, SKETCHY)
+            self._open.callback(self._browser.close)
+        return self._browser
+
+    @property
+    def server(self) -> RunningServer:
+        """Without shadows, which a machine without a graphics processor draws slowly."""
+        if self._server is None:
+            self._server = self._open.enter_context(running_deltalab("--no-shadows"))
+        return self._server
+
+    def close(self) -> None:
+        self._browser = self._server = None
+        self._open.close()
+
+
+PAGE_FILES = PageFiles()
+
+
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Other files need the main thread without the loop that Playwright keeps on it."""
+    if not draws_pages(item.nodeid.partition("::")[0]):
+        PAGE_FILES.close()
+
+
+def pytest_sessionfinish() -> None:
+    PAGE_FILES.close()
+
+
 @pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
+def browser() -> Browser:
     """Chromium; a machine without it skips the test, in CI that is a failure."""
     if not CHROMIUM.exists():
         reason = f"needs Chromium at {CHROMIUM}"
         if os.environ.get("CI") == "true":
             pytest.fail(reason)
         pytest.skip(reason)
-    with sync_playwright() as playwright:
-        chromium = launch(playwright, SKETCHY)
-        yield chromium
-        chromium.close()
+    return PAGE_FILES.browser
 
 
 @contextmanager
-def visitors(browser: Browser, script: str = "") -> Iterator[PageFactory]:
-    """Pages of fresh visitors, which run `script` first; an uncaught script error in one of them is a failure."""
+def visitors(browser: Browser) -> Iterator[PageFactory]:
+    """Pages of fresh visitors; an uncaught script error in one of them is a failure."""
     pages: list[Page] = []
     errors: list[str] = []
 
     def make(screen: Screen = DESKTOP) -> Page:
         page = new_page(browser, screen)
-        page.add_init_script(script)
+        page.add_init_script(SLOW_SCREEN)
         page.on("pageerror", lambda error: errors.append(str(error)))
         pages.append(page)
         return page
@@ -128,7 +170,10 @@ def running_server() -> Iterator[ServerFactory]:
 
 
 @pytest.fixture(scope="module")
-def server() -> Iterator[RunningServer]:
-    """One `deltalab` with its defaults, shared by a module's tests."""
+def server(request: pytest.FixtureRequest) -> Iterator[RunningServer]:
+    """One `deltalab` with its defaults, shared by a module's tests; those that draw pages share one among them."""
+    if draws_pages(str(request.path.relative_to(ROOT))):
+        yield PAGE_FILES.server
+        return
     with running_deltalab() as running:
         yield running

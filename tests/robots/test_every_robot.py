@@ -147,23 +147,23 @@ def test_nearest_survives_anything(robot):
 
 
 @every_robot
-def test_nearest_of_thousands_of_unreachable_targets(robot):
-    targets = sample(robot, 6000, seed=9, margin=1.0)
-    targets = targets[~robot.reachable(targets)][:2500]
-    assert len(targets) == 2500
+def test_nearest_of_a_thousand_unreachable_targets(robot):
+    targets = sample(robot, 2500, seed=9, margin=1.0)
+    targets = targets[~robot.reachable(targets)][:1000]
+    assert len(targets) == 1000
     answers = robot.nearest(targets)
     assert robot.reachable(answers).all()
     known = reachable_sample(robot, 4000, seed=10)
     turns = np.clip(targets[:, 3:], -robot.rotation_limit, robot.rotation_limit)
     assert np.allclose(answers[:, 3:], turns)
     farther = 0
-    for target, answer in zip(targets[:300], answers[:300], strict=True):
+    for target, answer in zip(targets[:200], answers[:200], strict=True):
         rivals = known.copy()
         rivals[:, 3:] = answer[3:]
         rivals = rivals[robot.reachable(rivals)]
         best = np.linalg.norm(rivals[:, :3] - target[:3], axis=1).min()
         farther += np.linalg.norm(answer[:3] - target[:3]) > best + 1e-3
-    assert farther <= 6, "at most 2 % of far targets may end in a local minimum"
+    assert farther <= 4, "at most 2 % of far targets may end in a local minimum"
 
 
 @every_robot

@@ -210,12 +210,12 @@ def test_skeleton_lies_in_the_plane_of_the_links():
     assert np.array_equal(skeleton.hinge, [[0, 0, 1], [0, 0, 1]])
 
 
-def test_nearest_of_thousands_of_targets_is_the_nearest():
+def test_nearest_of_a_thousand_targets_is_the_nearest():
     """Behind the machine two corners, tip and side of the region, are each nearest in their surroundings: a
     descent may end in the lesser of them for 1 target in 25."""
-    targets = np.random.default_rng(2).uniform((-0.6, -0.5, -0.25, -4.0), (0.6, 0.8, 0.2, 4.0), (2600, 4))
+    targets = np.random.default_rng(2).uniform((-0.6, -0.5, -0.25, -4.0), (0.6, 0.8, 0.2, 4.0), (1100, 4))
     targets = targets[~FIVEBAR.reachable(targets)]
-    assert len(targets) > 2500
+    assert len(targets) > 1000
     answers = FIVEBAR.nearest(targets)
     assert FIVEBAR.reachable(answers).all()
     assert np.allclose(answers[:, 3], np.clip(targets[:, 3], -np.pi, np.pi))

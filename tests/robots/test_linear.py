@@ -210,11 +210,11 @@ def columns(step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return xy[low <= high], low[low <= high], high[low <= high]
 
 
-def test_nearest_of_thousands_of_targets_is_the_nearest():
+def test_nearest_of_a_thousand_targets_is_the_nearest():
     """The workspace is hollow above, where a descent may end in the lesser of two corners: 1 in 200 may."""
-    targets = np.random.default_rng(2).uniform((-0.6, -0.6, -1.3), (0.6, 0.6, 0.3), (2600, 3))
+    targets = np.random.default_rng(2).uniform((-0.6, -0.6, -1.3), (0.6, 0.6, 0.3), (1100, 3))
     targets = targets[~LINEAR.reachable(targets)]
-    assert len(targets) > 2500
+    assert len(targets) > 1000
     answers = LINEAR.nearest(targets)
     assert LINEAR.reachable(answers).all()
     xy, low, high = columns(step=0.005)

@@ -45,13 +45,13 @@ SLOW_SCREEN = """{
   const turn = new WeakMap();
   window.requestAnimationFrame = (draw) => {
     const frame = (time) => { turn.set(draw, performance.now() + 200); draw(time); };
-    const wait = (turn.get(draw) ?? 0) - performance.now();
+    const wait = window.deltalabInHand ? 0 : (turn.get(draw) ?? 0) - performance.now();
     return wait > 0 ? -setTimeout(() => frame(performance.now()), wait) : request(frame);
   };
   window.cancelAnimationFrame = (id) => id < 0 ? clearTimeout(-id) : cancel(id);
 }"""
 """Script of a page that paints its scene five times a second, not as often as the processor can, and leaves time to
-others. Only what asks again and again has to wait. Not for tests that drag."""
+others. Only what asks again and again has to wait, and nothing while a gizmo is in hand."""
 
 _READY = """(nodes) => {
   const page = window.__viserMutable, tree = window.__viserSceneTree;
@@ -230,7 +230,9 @@ def gizmo_scale(page: Page, name: str) -> float:
 
 
 def _drag(page: Page, path: Sequence[tuple[float, float]], touch: bool) -> None:
+    page.evaluate("window.deltalabInHand = true")
     (_drag_with_finger if touch else _drag_with_mouse)(page, path)
+    page.evaluate("window.deltalabInHand = false")
 
 
 def _drag_with_mouse(page: Page, path: Sequence[tuple[float, float]]) -> None:

@@ -96,6 +96,13 @@ def open_tab(page: Page, label: str) -> None:
     settle(page)
 
 
+def take_robot(page: Page, title: str) -> None:
+    """Take another robot than the one that every fresh page shows; only the first tab has been opened."""
+    page.get_by_role("combobox", name="Robot", exact=True).click()
+    page.get_by_role("option", name=title, exact=True).click()
+    settle(page)
+
+
 def upload(page: Page, label: str, path: Path) -> None:
     """Give a file to an upload button."""
     page.locator(f'[id="file_upload_{button(page, label).get_attribute("id")}"]').set_input_files(path)

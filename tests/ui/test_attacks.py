@@ -18,10 +18,8 @@ import msgspec.msgpack
 import pytest
 import viser
 import websockets.exceptions
-from playwright.sync_api import Browser
 
 from app.ui.guard import MIB, Guard
-from tests.support.browser import new_page
 from tests.support.small_lab import GIZMO, HOST, SmallLab, bare_lab, eventually, guarded_lab, round_trip
 from tests.support.wire import WireClient, run_async, wire_client
 
@@ -62,20 +60,6 @@ def test_a_foreign_web_site_cannot_connect(lab: SmallLab, origin: str) -> None:
 def test_a_foreign_name_for_this_machine_is_not_served(lab: SmallLab) -> None:
     """DNS rebinding: the site's own name resolves to this machine, so that browser takes it for the same site."""
     assert lab.get(headers={"Host": "evil.example"}).status == 403
-
-
-def test_the_page_cannot_be_attached_to_a_foreign_server(lab: SmallLab, browser: Browser) -> None:
-    """`?websocket=` makes viser's page take its scripts from any server that the link names."""
-    with bare_lab() as foreign:
-        target = f"ws://{HOST}:{foreign.server.get_port()}"
-        page = new_page(browser)
-        with page.expect_console_message(lambda message: f"Connecting to: {target}" in message.text):
-            page.goto(f"{lab.url}/?websocket={target}")
-        for _ in range(30):
-            if not foreign.clients:
-                page.wait_for_timeout(100)
-        page.context.close()
-        assert not foreign.clients
 
 
 def test_nobody_opens_a_public_tunnel(lab: SmallLab) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -14,7 +13,7 @@ from playwright.sync_api import Page, expect
 from app.simulation import circle_tracking
 from tests.support.browser import PHONE, PageFactory, node_pose, open_page, screenshot, wait_ready, wait_until
 from tests.support.plots import Chart, chart
-from tests.support.server import RunningServer, running_deltalab
+from tests.support.server import RunningServer
 from tests.support.widgets import button, choose, open_tab, press, set_slider, step_slider, toggle, type_into, upload
 
 TOOL = "/robot/tool"
@@ -22,12 +21,6 @@ STEP, CONTROL = "Step response", "Control signal"
 DEFAULT_OVERSHOOT = 0.0494
 """Golden: 25 degrees at 12 V without anti-windup."""
 pytestmark = pytest.mark.browser
-
-
-@pytest.fixture(scope="module")
-def server() -> Iterator[RunningServer]:
-    with running_deltalab("--no-shadows") as running:
-        yield running
 
 
 @pytest.fixture(scope="module")
@@ -236,8 +229,9 @@ def test_the_motor_is_identified_and_used(lab: Page, tmp_path):
     expect(page.get_by_text("▲ Line 1", exact=False)).to_be_visible(timeout=30_000)
 
 
-def test_other_robots_have_a_motor_too_and_a_reload_keeps_the_gains(page: Page, server: RunningServer):
-    open_lab(page, server)
+def test_other_robots_have_a_motor_too_and_a_reload_keeps_the_gains(lab: Page):
+    """The last to use this visitor: another robot is left behind."""
+    page = lab
     open_tab(page, "Robot")
     choose(page, "Robot", "Linear delta")
     open_tab(page, "Control")

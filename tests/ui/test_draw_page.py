@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import math
 import re
-from collections.abc import Iterator
 from pathlib import Path
 from urllib.request import urlopen
 
@@ -20,17 +19,23 @@ from app.drawing.svg_import import read_svg
 from app.robots import ROBOTS
 from tests.support.browser import PHONE, PageFactory, node_pose, open_page, pull_gizmo, screenshot, wait_until
 from tests.support.plots import chart
-from tests.support.server import RunningServer, running_deltalab
-from tests.support.widgets import button, choose, field, open_tab, press, set_slider, settle, toggle, type_into, upload
+from tests.support.server import RunningServer
+from tests.support.widgets import (
+    button,
+    choose,
+    field,
+    open_tab,
+    press,
+    set_slider,
+    settle,
+    take_robot,
+    toggle,
+    type_into,
+    upload,
+)
 
 TOOL, SHEET = "/robot/tool", "/robot/sheet"
 pytestmark = pytest.mark.browser
-
-
-@pytest.fixture(scope="module")
-def server() -> Iterator[RunningServer]:
-    with running_deltalab("--no-shadows", "--robot", "delta3") as running:
-        yield running
 
 
 @pytest.fixture(scope="module")
@@ -62,7 +67,7 @@ def desk(shared_page: Page) -> Page:
 
 def open_draw(page: Page, server: RunningServer) -> None:
     open_page(page, server.url, [TOOL])
-    page.get_by_role("tab", name="Draw", exact=True).wait_for()
+    take_robot(page, ROBOTS["delta3"].title)
     open_tab(page, "Draw")
     page.get_by_alt_text("Drawing", exact=True).first.wait_for(timeout=60_000)
 
@@ -71,6 +76,7 @@ def ready(page: Page) -> None:
     """Wait until the way is planned, and the search for a better order has come to rest."""
     page.wait_for_timeout(300)
     wait_until(page, lambda: button(page, "Draw").is_visible() and button(page, "Draw").is_enabled(), "a plan")
+    wait_until(page, lambda: re.match(r"\d", cell(page, "Drawing time").inner_text()), "the time it takes")
 
 
 def cell(page: Page, name: str) -> Locator:

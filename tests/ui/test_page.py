@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
 
 import pytest
 from playwright.sync_api import Page, expect
@@ -14,6 +13,7 @@ from tests.support.browser import (
     PHONE,
     SHARPNESS,
     PageFactory,
+    Screen,
     node_pose,
     open_page,
     pull_gizmo,
@@ -23,18 +23,11 @@ from tests.support.browser import (
     wait_still,
     wait_until,
 )
-from tests.support.server import RunningServer, running_deltalab
+from tests.support.server import RunningServer
 from tests.support.widgets import choose, field, open_tab, press, set_slider, slider_box, toggle, type_into
 
 GIZMO, TOOL = "/robot/gizmo", "/robot/tool"
 pytestmark = pytest.mark.browser
-
-
-@pytest.fixture(scope="module")
-def server() -> Iterator[RunningServer]:
-    """Without shadows, which a machine without a graphics processor draws slowly."""
-    with running_deltalab("--no-shadows") as running:
-        yield running
 
 
 @pytest.fixture(scope="module")
@@ -168,8 +161,8 @@ def test_a_joint_slider_moves_the_tool_and_refuses_the_impossible(lab: Page):
     wait_until(page, lambda: abs(float(slider_box(page, "q1 (deg)").input_value()) + 2.1) < 0.06, "slider back")
 
 
-def test_a_changed_geometry_changes_the_machine(page: Page, server: RunningServer):
-    visit_lab(page, server)
+def test_a_changed_geometry_changes_the_machine(lab: Page):
+    page = lab
     page.get_by_text("Geometry", exact=True).click()
     set_slider(page, "Rod length l (mm)", 450)
     longer = make_robot("par4", l=0.45)
@@ -182,6 +175,8 @@ def test_a_changed_geometry_changes_the_machine(page: Page, server: RunningServe
         let z = 0; for (let i = 2; i < p.vertices.length; i += 3) z = Math.min(z, p.vertices[i]); return z; }"
     wait_until(page, lambda: page.evaluate(lowest) < -0.44, "longer rods on the screen")
     screenshot(page, "geometry")
+    press(page, "Reset geometry")
+    wait_until(page, lambda: page.evaluate(lowest) > -0.44, "the rods of before")
 
 
 def test_two_browsers_are_independent(lab: Page, page: Page, server: RunningServer):
@@ -194,8 +189,9 @@ def test_two_browsers_are_independent(lab: Page, page: Page, server: RunningServ
     assert tool_mm(two) == pytest.approx([0.0, -36.0, -300.0], abs=0.01)
 
 
-def test_a_reload_keeps_the_students_robot(page: Page, server: RunningServer):
-    """At the address that a student opens, and as sharp."""
+def test_a_reload_keeps_the_students_robot(visit: PageFactory, server: RunningServer):
+    """At the address that a student opens, and as sharp; a small window, since that costs."""
+    page = visit(Screen(960, 600))
     visit_lab(page, server, sharpness=None)
     choose_robot(page, "fivebar")
     type_into(page, "y (mm)", 350)
@@ -206,8 +202,8 @@ def test_a_reload_keeps_the_students_robot(page: Page, server: RunningServer):
     wait_until(page, lambda: abs(tool_mm(page)[1] - 350) < 0.01, "the same pose again")
 
 
-def test_view_options_show_what_they_say(page: Page, server: RunningServer):
-    visit_lab(page, server)
+def test_view_options_show_what_they_say(lab: Page):
+    page = lab
     open_tab(page, "View")
     choose(page, "Show as", "Surface")
     choose(page, "Loop vectors", "Leg 1")
@@ -223,6 +219,7 @@ def test_view_options_show_what_they_say(page: Page, server: RunningServer):
     screenshot(page, "dark")
     press(page, "Reset view")
     wait_until(page, lambda: not (wanted & set(page.evaluate(names))), "a clean view")
+    open_tab(page, "Robot")
 
 
 def test_on_a_phone_a_finger_drags_the_robot(visit, server: RunningServer):

@@ -9,36 +9,28 @@ import socket
 import threading
 from collections.abc import Iterator
 from importlib.metadata import version
-from typing import Any
 
 import numpy as np
 import pytest
 import viser
-from playwright.sync_api import Browser
 from viser import _messages
 
 from app.ui import inbound
 from app.ui.guard import COOKIE, Guard, new_browser_id
 from app.ui.viser_adapter import (
-    NodeStream,
     browser_id,
-    run_javascript,
     silence_gizmo_echo,
     start_server,
     stop_server,
 )
-from tests.support.browser import drag_gizmo, new_page, node_pose, open_page, wait_until
 from tests.support.small_lab import (
     GIZMO,
-    GROUP,
     HOST,
-    TOOL,
     SmallLab,
     eventually,
     guarded_lab,
     round_trip,
 )
-from tests.support.widgets import set_slider, type_into, upload
 from tests.support.wire import note, run_async, wire_client
 
 
@@ -187,33 +179,6 @@ def test_a_declined_upload_frees_the_button_and_says_why() -> None:
         run_async(scene())
 
 
-def test_nothing_that_a_real_page_sends_is_refused(
-    lab: SmallLab, browser: Browser, caplog: pytest.LogCaptureFixture, tmp_path: Any
-) -> None:
-    caplog.set_level(logging.DEBUG, logger="app.ui.admission")
-    photo = tmp_path / "photo.png"
-    photo.write_bytes(bytes(700_000))
-    page = new_page(browser)
-    open_page(page, lab.url, [GIZMO, GROUP])
-    set_slider(page, "Speed", 0.25)
-    type_into(page, "Height", 12.5)
-    # viser's text fields are not tied to their labels.
-    page.locator("label", has_text="Name").locator("xpath=ancestor::*[.//input][1]//input").fill("Ada")
-    upload(page, "Drawing", photo)
-    drag_gizmo(page, GIZMO)
-    page.mouse.move(500, 400)
-    page.mouse.wheel(0, 300)
-    page.get_by_role("button", name="Go").click()
-    wait_until(page, lambda: lab.values("Go") and lab.values("Drawing"), "click and file")
-    page.context.close()
-    assert lab.values("drag")[-1][2] > 0.01
-    assert lab.values("Speed")[-1] == 0.25
-    assert lab.values("Height")[-1] == 12.5
-    assert lab.values("Name")[-1] == "Ada"
-    assert lab.values("Drawing") == [("photo.png", bytes(700_000))]
-    assert [record.getMessage() for record in caplog.records if "refused" in record.getMessage()] == []
-
-
 @pytest.mark.parametrize(
     ("silenced", "heard_back"), [(True, True), (False, False)], ids=["silenced", "as viser has it"]
 )
@@ -233,16 +198,3 @@ def test_a_gizmo_can_be_corrected_while_it_is_dragged(lab: SmallLab, silenced: b
             assert (client.positions.get(GIZMO) == (0.5, 0.0, 0.0)) is heard_back
 
     run_async(scene())
-
-
-def test_a_script_runs_on_the_page(lab: SmallLab, browser: Browser) -> None:
-    page = new_page(browser)
-    open_page(page, lab.url, [GROUP])
-    client = lab.clients[max(lab.clients)]
-    run_javascript(client, 'document.title = "from the server"')
-    wait_until(page, lambda: page.title() == "from the server", "new title")
-    stream = NodeStream(client)
-    stream.move(lab.tools[client.client_id], (0.25, 0.5, 0.75))
-    stream.flush()
-    wait_until(page, lambda: (pose := node_pose(page, TOOL)) and np.allclose(pose.position, (0.25, 0.5, 0.75)), "tool")
-    page.context.close()

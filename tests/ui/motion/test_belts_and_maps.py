@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
 from app.motion import CYCLES, plan_work_cycle
+from app.robots import ROBOTS
 from tests.support.browser import PageFactory, open_page, screenshot, wait_ready, wait_until
 from tests.support.plots import chart
-from tests.support.server import RunningServer, running_deltalab
-from tests.support.widgets import choose, open_tab, set_slider, toggle
+from tests.support.server import RunningServer
+from tests.support.widgets import choose, open_tab, set_slider, take_robot, toggle
 
 TOOL, BELTS, MAP = "/robot/tool", "/robot/belts", "/robot/map"
 _SHOWN = "name => Boolean(window.__viserMutable.nodeRefFromName[name]?.visible)"
@@ -26,12 +26,6 @@ pytestmark = pytest.mark.browser
 
 
 @pytest.fixture(scope="module")
-def server() -> Iterator[RunningServer]:
-    with running_deltalab("--robot", "fivebar", "--no-shadows") as running:
-        yield running
-
-
-@pytest.fixture(scope="module")
 def page(server: RunningServer, lasting_visit: PageFactory) -> Page:
     page = lasting_visit()
     enter(page, server)
@@ -41,6 +35,7 @@ def page(server: RunningServer, lasting_visit: PageFactory) -> Page:
 def enter(page: Page, server: RunningServer) -> None:
     open_page(page, server.url)
     wait_ready(page, [TOOL])
+    take_robot(page, ROBOTS["fivebar"].title)
     open_tab(page, "Motion")
     choose(page, "Show", "Work cycle")
     expect(page.locator(".deltalab-verdict").first).to_have_text(re.compile("2.46 s"), timeout=30_000)

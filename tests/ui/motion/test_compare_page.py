@@ -3,26 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from app.robots import ROBOTS
 from tests.support.browser import PHONE, PageFactory, open_page, screenshot, wait_ready, wait_until
 from tests.support.plots import chart
-from tests.support.server import RunningServer, running_deltalab
-from tests.support.widgets import choose, open_tab, press, set_slider, toggle
+from tests.support.server import RunningServer
+from tests.support.widgets import choose, open_tab, press, set_slider, take_robot, toggle
 
 ROOT = "/robot/compare"
 RUN = "Compare them"
 _HAS_MAP = "() => '/robot/map/sheet' in window.__viserSceneTree.getState()"
 pytestmark = pytest.mark.browser
-
-
-@pytest.fixture(scope="module")
-def server() -> Iterator[RunningServer]:
-    with running_deltalab("--no-shadows", "--robot", "linear") as running:
-        yield running
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +31,7 @@ def lab(server: RunningServer, lasting_visit: PageFactory) -> Page:
 
 def enter(page: Page) -> None:
     wait_ready(page, ["/robot/tool"])
-    page.get_by_role("tab", name="Motion", exact=True).wait_for()
+    take_robot(page, ROBOTS["linear"].title)
     open_tab(page, "Motion")
     page.get_by_text("Compare controllers", exact=True).first.wait_for()
     page.get_by_text("Compare controllers", exact=True).first.click()

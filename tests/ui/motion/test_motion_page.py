@@ -6,7 +6,6 @@ import csv
 import io
 import math
 import re
-from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -17,7 +16,7 @@ from app.robots import ROBOTS
 from app.ui import theme
 from tests.support.browser import PageFactory, node_pose, open_page, screenshot, wait_ready, wait_until
 from tests.support.plots import Chart, chart
-from tests.support.server import RunningServer, running_deltalab
+from tests.support.server import RunningServer
 from tests.support.widgets import button, choose, open_tab, press, set_slider, slider_box, toggle, type_into
 
 TOOL, PATH = "/robot/tool", "/robot/motion/path"
@@ -28,12 +27,6 @@ _PATH = """(name) => {
   return node ? {colors: Array.from(node.message.props.colors), visible: window.__viserMutable.nodeRefFromName[name].visible} : null;
 }"""  # noqa: E501
 pytestmark = pytest.mark.browser
-
-
-@pytest.fixture(scope="module")
-def server() -> Iterator[RunningServer]:
-    with running_deltalab("--no-shadows") as running:
-        yield running
 
 
 @pytest.fixture(scope="module")
