@@ -12,7 +12,7 @@ from typing import TypeVar
 
 import tyro
 
-from app import __version__, export_command, firmware_command, link_command
+from app import __version__, export_command, firmware_command, lessons_command, link_command
 from app.draw_command import Draw, draw
 from app.errors import UserMistake
 from app.resources import data_root
@@ -73,6 +73,9 @@ COMMANDS: dict[str, tuple[type, Callable[..., None]]] = {
     "export": (export_command.Export, export_command.export),
     "firmware build": (firmware_command.Build, firmware_command.build),
     "firmware upload": (firmware_command.Upload, firmware_command.upload),
+    "lessons check": (lessons_command.Check, lessons_command.check),
+    "lessons facts": (lessons_command.Facts, lessons_command.facts),
+    "lessons new": (lessons_command.New, lessons_command.new),
     "link info": (link_command.Info, link_command.info),
     "link jog": (link_command.JogOnce, link_command.jog),
     "link monitor": (link_command.Monitor, link_command.monitor),

@@ -30,9 +30,11 @@ LAYERS = [
 """From the bottom to the top; each may import itself and what stands before it."""
 
 TOP_MODULES = {"app": "foundation", "app.errors": "foundation", "app.resources": "foundation"}
+TOP_MODULES |= {"app.recent": "foundation", "app.signal": "foundation"}
 TOP_MODULES |= {"app.cli": "cli", "app.commands": "cli", "app.__main__": "cli"}
 TOP_MODULES |= {"app.draw_command": "cli", "app.firmware_command": "cli", "app.link_command": "cli"}
-TOP_MODULES |= {"app.link_console": "cli", "app.export_command": "cli"}
+TOP_MODULES |= {"app.link_console": "cli", "app.export_command": "cli", "app.lessons_command": "cli"}
+TOP_MODULES |= {"app.equations": "foundation"}
 HOMES = {"viser": "ui", "serial": "link"}
 """Library -> the only layer that may import it."""
 

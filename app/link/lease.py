@@ -68,14 +68,27 @@ class Lease:
         if not person.instructor:
             raise LinkError("Only an instructor can take the robot over; ask for it and wait for your turn.")
         self.expire(now)
-        self._drop(person.key)
-        self._line.insert(0, person)
-        self._seen[person.key] = now
+        self._put_first(person, now)
+
+    def hand_to(self, giver: Person, person: Person, now: float) -> None:
+        """An instructor gives the robot to somebody, whether he waits or not; who held it is next, but for the giver.
+        His page has as long as any to give a sign of life."""
+        if not giver.instructor:
+            raise LinkError("Only an instructor can hand the robot to somebody; press Hand over for the next in line.")
+        self.expire(now)
+        if giver.key != person.key:
+            self._drop(giver.key)
+        self._put_first(person, now)
 
     def expire(self, now: float) -> None:
         """Forget everybody who gave no sign of life for too long."""
         for key in [key for key, seen in self._seen.items() if now - seen >= self._keep_s]:
             self._drop(key)
+
+    def _put_first(self, person: Person, now: float) -> None:
+        self._drop(person.key)
+        self._line.insert(0, person)
+        self._seen[person.key] = now
 
     def _drop(self, key: str) -> None:
         self._line = [waiting for waiting in self._line if waiting.key != key]

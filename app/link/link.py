@@ -96,6 +96,10 @@ class RobotLink:
         """Instructors only: the robot halts and is theirs."""
         return self._send(self._orders.take_over, person)
 
+    def hand_to(self, giver: Person, person: Person) -> Answer:
+        """Instructors only: the robot halts and is that person's."""
+        return self._send(self._orders.hand_to, giver, person)
+
     def alive(self, person: Person) -> Answer:
         """A sign of life, about once a second, of everybody who holds or waits."""
         return self._send(self._orders.alive, person)

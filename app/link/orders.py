@@ -57,6 +57,10 @@ class Orders:
         self._pilot.lease.take_over(person, now)
         self._pilot.watch_holder(now)
 
+    def hand_to(self, giver: Person, person: Person, now: float) -> None:
+        self._pilot.lease.hand_to(giver, person, now)
+        self._pilot.watch_holder(now)
+
     def alive(self, person: Person, now: float) -> None:
         self._pilot.lease.alive(person, now)
 

@@ -42,8 +42,18 @@ class RotaryDelta(Robot):
     def _bind(self) -> None:
         self._arms = tuple((math.cos(a), math.sin(a)) for a in self._azimuths)
 
-    def _coefficients(self, m: Any, *pose: Any) -> list[tuple[Any, Any, Any]]:
-        """E, F, G of each leg in  E sin q + F cos q + G = 0."""
+    @property
+    def arm_m(self) -> float:
+        """Length of the upper arms."""
+        return self._L
+
+    @property
+    def rod_m(self) -> float:
+        """Length of the rods."""
+        return self._l
+
+    def leg_equations(self, m: Any, *pose: Any) -> list[tuple[Any, Any, Any]]:
+        """E, F, G of each leg in  E sin q + F cos q + G = 0, m^2. Elementwise: `m` is `math` or `numpy`."""
         L = self._L
         constant = L * L - self._l * self._l
         return [
@@ -52,13 +62,13 @@ class RotaryDelta(Robot):
         ]
 
     def _inverse_columns(self, *pose: Array) -> Sequence[Array]:
-        return [outer_angle(*leg) for leg in self._coefficients(np, *pose)]
+        return [outer_angle(*leg) for leg in self.leg_equations(np, *pose)]
 
     def solve(self, *pose: float) -> tuple[float, ...]:
-        return tuple([outer_angle_scalar(*leg) for leg in self._coefficients(math, *pose)])
+        return tuple([outer_angle_scalar(*leg) for leg in self.leg_equations(math, *pose)])
 
     def working_modes(self, pose: ArrayLike) -> Array:
-        legs = [np.array(leg) for leg in self._coefficients(np, *np.asarray(pose, dtype=float))]
+        legs = [np.array(leg) for leg in self.leg_equations(np, *np.asarray(pose, dtype=float))]
         modes = np.array([[float(angle(*leg)) for leg in legs] for angle in (outer_angle, inner_angle)])
         return modes[~np.isnan(modes).any(axis=-1)]
 
@@ -84,7 +94,7 @@ class RotaryDelta(Robot):
         return rods, (rods * turn).sum(-1)
 
     def _open_loop(self, pose: list[float], joints: tuple[float, ...]) -> Reach:
-        gaps = [gap(*leg, self._l) for leg in self._coefficients(math, *pose)]
+        gaps = [gap(*leg, self._l) for leg in self.leg_equations(math, *pose)]
         leg = max(range(len(gaps)), key=lambda i: abs(gaps[i]))
         size = f"{abs(gaps[leg]) * 1e3:.0f}" if abs(gaps[leg]) >= 5e-4 else "less than 1"
         if gaps[leg] > 0.0:

@@ -78,3 +78,9 @@ class ServeOptions:
     """Port of the robot on the table: /dev/ttyUSB0, COM3, or an emulated board such as sim:par4 or sim:delta3."""
     pin: Annotated[str | None, _PIN] = None
     """What makes somebody the instructor, who may take the robot over. Without it, one is chosen and printed."""
+    classroom: bool = False
+    """Lead a class: students join with a name and the code that is printed, the instructor with the PIN."""
+    class_name: Annotated[str, tyro.conf.arg(metavar="NAME")] = ""
+    """What the class is called, on its reports and in its table of results."""
+    data: Annotated[str | None, tyro.conf.arg(metavar="PATH")] = None
+    """File or folder that keeps the class and everybody's progress. The default is your user data folder."""

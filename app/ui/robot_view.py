@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Protocol
+
 import numpy as np
 import viser
 from numpy.typing import NDArray
@@ -12,29 +14,42 @@ from app.robots.parts.shading import Arrays
 from app.ui import theme
 from app.ui.compute import Worker
 from app.ui.jobs import part_arrays
-from app.ui.session import Session
+from app.ui.session import Signal
 from app.ui.shape_cache import ShapeCache
-from app.ui.state import Stance
+from app.ui.state import Stance, ViewOptions
 from app.ui.viser_adapter import NodeStream
 
 SEE_THROUGH = 0.35
 
-PARENTS = {"base": "/robot", "platform": "/robot/platform", "tool": "/robot/tool"}
-"""Scene node that carries the bodies of each frame."""
+PARENTS = {"base": "", "platform": "/platform", "tool": "/tool"}
+"""Scene node, below the robot's own, that carries the bodies of each frame."""
+
+
+class Shown(Protocol):
+    """What there is to show: a session, or somebody else's robot."""
+
+    robot_changed: Signal[Robot]
+    stance_changed: Signal[Stance]
+    view_changed: Signal[ViewOptions]
+    robot: Robot
+    stance: Stance
+    view: ViewOptions
 
 
 class RobotView:
-    """`/robot` and everything under it that belongs to the machine itself."""
+    """`/robot`, or another node, and everything under it that belongs to the machine itself."""
 
     def __init__(
         self,
         client: viser.ClientHandle,
-        session: Session,
+        session: Shown,
         stream: NodeStream,
         shapes: ShapeCache,
         worker: Worker,
+        root: str = "/robot",
     ) -> None:
         self._scene = client.scene
+        self._path = root
         self._session = session
         self._stream = stream
         self._shapes = shapes
@@ -45,8 +60,10 @@ class RobotView:
         self._robot: Robot | None = None
         self._machine: Machine | None = None
         self._tool_rotation: tuple[float, ...] | None = None
-        self._platform = client.scene.add_frame(PARENTS["platform"], show_axes=False)
-        self._tool = client.scene.add_frame(PARENTS["tool"], show_axes=False)
+        self.root = client.scene.add_frame(root, show_axes=False)
+        """Whatever hangs on it is hidden and removed with it."""
+        self._platform = client.scene.add_frame(root + PARENTS["platform"], show_axes=False)
+        self._tool = client.scene.add_frame(root + PARENTS["tool"], show_axes=False)
         session.robot_changed.connect(self._rebuild)
         session.stance_changed.connect(self.show)
         session.view_changed.connect(lambda _: self._see_through())
@@ -76,7 +93,7 @@ class RobotView:
         for body in machine.bodies:
             place = body.fixed if body.fixed is not None else placements[body.name]
             for part in body.parts:
-                path = f"{PARENTS[body.frame]}/{part.name}"
+                path = f"{self._path}{PARENTS[body.frame]}/{part.name}"
                 node = old.pop(path, None)
                 if node is None or (node.part, node.body.legs) != (part, body.legs):
                     arrays = self._shapes.get(part)

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import viser
 
-from app.ui.bench import Bench
-from app.ui.compute import Pools, Worker
+from app.ui.bench import SETTINGS_PX, Bench
+from app.ui.classroom.class_page import ClassPage
+from app.ui.classroom.guest_view import GuestView
+from app.ui.classroom.hall import Hall
+from app.ui.classroom.lines import line_of
+from app.ui.compute import Pools
+from app.ui.desks import Desks
 from app.ui.drawing.surroundings import Surroundings
 from app.ui.ghosts import Ghosts
 from app.ui.gizmo import Gizmo
@@ -18,6 +23,8 @@ from app.ui.hardware.stop_bar import StopBar
 from app.ui.hardware.surroundings import HardwareSurroundings
 from app.ui.hardware.workshop import Workshop
 from app.ui.lab.room import ControlRoom
+from app.ui.lessons.door import LessonDoor
+from app.ui.lessons.library import Library
 from app.ui.motion.surroundings import MotionSurroundings
 from app.ui.notice import Notice
 from app.ui.overlay import Overlay
@@ -27,9 +34,11 @@ from app.ui.picture_width import PictureWidth
 from app.ui.robot_view import RobotView
 from app.ui.session import Session
 from app.ui.shape_cache import ShapeCache
+from app.ui.staff import Staff
 from app.ui.stage import Stage
 from app.ui.state import Memory
 from app.ui.tab_door import TabDoor
+from app.ui.tabs import Tabs
 from app.ui.viser_adapter import NodeStream, browser_id, run_javascript
 from app.ui.workspace_view import WorkspaceCache, WorkspaceView
 
@@ -38,7 +47,6 @@ if TYPE_CHECKING:
     from app.ui.hardware.room import HardwareRoom
     from app.ui.motion.room import MotionRoom
 
-PANEL_WIDTH = 330
 NARROW_TABS = """
 const style = document.createElement("style");
 style.textContent = '[role="tab"] { padding: 0.7em 0.45em !important; }'
@@ -59,15 +67,28 @@ class Room:
         shapes: ShapeCache,
         spaces: WorkspaceCache,
         workshop: Workshop,
+        hall: Hall | None = None,
+        library: Library | None = None,
     ) -> None:
+        """
+        Args:
+            hall: of the class; None for everybody who works alone.
+            library: of lessons; None for a page without.
+        """
         self._client = client
         self.browser = browser_id(client)
         self.session = Session(memory)
-        self._pools = pools
+        self._staff = Staff(pools, self._tell)
+        """Works for what is seen; the desks have their own."""
+        self.desks = Desks(self.session, Staff(pools, self._tell), workshop, self.browser, self._tell_of_robot)
+        self.tabs = Tabs(client)
+        self.tabs.changed.connect(lambda _: self.desks.changed.emit(None))
         self._shapes = shapes
         self._spaces = spaces
         self._workshop = workshop
-        self._workers: list[Worker] = []
+        self._hall = hall
+        self._library = library
+        self._class_page: ClassPage | None = None
         self._closers: list[Callable[[], None]] = []
         self._closed = False
 
@@ -78,10 +99,12 @@ class Room:
         run_javascript(client, 'document.title = "Delta Lab"' + NARROW_TABS)
         width = PictureWidth(client)
         stage = Stage(client, session, width)
-        RobotView(client, session, stream, self._shapes, self._worker())
+        view = RobotView(client, session, stream, self._shapes, self._staff.slow())
         gizmo = Gizmo(client, session, stream)
         Notice(client, session)
         self._closers.append(StopBar(client, self._workshop, self.browser).close)
+        if self._hall is not None:
+            self._enter(self._hall, GuestView(client, view, stage, self._shapes, self._staff.slow()))
         client.flush()
         await asyncio.sleep(0)
         if self._closed:
@@ -90,75 +113,69 @@ class Room:
         session.stance_changed.connect(lambda _: stream.flush())
         client.flush()
 
+    def _enter(self, hall: Hall, guests: GuestView) -> None:
+        page = self._class_page = ClassPage(self._client, hall, self.browser, self.session, guests)
+        page.draw_lines(lambda kind: line_of(self.desks, kind))
+        self._closers.append(page.close)
+
     def close(self) -> None:
         """Stop what would go on without the browser."""
         self._closed = True
-        for worker in self._workers:
-            worker.cancel()
+        self._staff.cancel()
         for close in self._closers:
             close()
+        self.desks.close()
 
     def _add_panels(self, stage: Stage, gizmo: Gizmo, width: PictureWidth) -> None:
         client, session, gui = self._client, self.session, self._client.gui
         overlay = Overlay(client, session)
         ghosts = Ghosts(client, session, self._shapes)
-        WorkspaceView(client, session, self._worker(), self._spaces)
+        WorkspaceView(client, session, self._staff.slow(), self._spaces)
         gui.main_panel.dock_right()
-        gui.main_panel.set_width(PANEL_WIDTH)
-        tabs = gui.add_tab_group()
-        with tabs.add_tab("Robot", viser.Icon.ROBOT):
+        gui.main_panel.set_width(SETTINGS_PX)
+        tabs, group = self.tabs, gui.add_tab_group()
+        with group.add_tab("Robot", viser.Icon.ROBOT):
             robot_panel = RobotPanel(gui, session)
-        control_tab = tabs.add_tab("Control", viser.Icon.ADJUSTMENTS)
-        motion_tab = tabs.add_tab("Motion", viser.Icon.ROUTE)
-        draw_tab = tabs.add_tab("Draw", viser.Icon.PENCIL)
-        hardware_tab = tabs.add_tab("Hardware", viser.Icon.PLUG)
-        with tabs.add_tab("View", viser.Icon.EYE):
+        control_tab = group.add_tab("Control", viser.Icon.ADJUSTMENTS)
+        motion_tab = group.add_tab("Motion", viser.Icon.ROUTE)
+        draw_tab = group.add_tab("Draw", viser.Icon.PENCIL)
+        hardware_tab = group.add_tab("Hardware", viser.Icon.PLUG)
+        with group.add_tab("View", viser.Icon.EYE):
             ViewPanel(gui, session, stage, overlay)
         bench = Bench(client, width)
-        access = RobotAccess(client, session, gizmo, self._shapes, self._workshop, self.browser)
-        lab = ControlRoom(client, session, control_tab, bench, self._quick_worker(), self._worker, self._tell, access)
-        quick, slow = self._quick_worker, self._worker
-        drawn = Surroundings(client, session, gizmo, stage, draw_tab, bench, access, quick, slow)
-        moved = MotionSurroundings(
-            client, session, motion_tab, bench, gizmo, stage, self._shapes, quick, slow, self._tell
-        )
-        motion = TabDoor(client, "Motion", lambda: _motion_room(moved))
-        drawing = TabDoor(client, "Draw", lambda: _drawing_room(drawn))
-        wired = HardwareSurroundings(
-            client,
-            session,
-            hardware_tab,
-            bench,
-            access,
-            quick,
-            slow,
-            drawing=lambda: drawing.room and drawing.room.drawing,
-            run=lambda: lab.run,
-            use_motor=lab.use_motor,
-        )
-        hardware = TabDoor(client, "Hardware", lambda: _hardware_room(wired))
+        desks, quick, slow = self.desks, self._staff.quick, self._staff.slow
+        access = RobotAccess(client, desks, gizmo, self._shapes)
+        lab = ControlRoom(client, tabs, control_tab, bench, desks, slow, access)
+        drawn = Surroundings(client, session, desks, gizmo, stage, draw_tab, bench, access, quick, slow)
+        moved = MotionSurroundings(client, session, desks, motion_tab, bench, gizmo, stage, self._shapes, slow)
+        wired = HardwareSurroundings(client, desks, hardware_tab, bench, access, quick, slow)
+        motion = TabDoor(tabs, "Motion", lambda: _motion_room(moved))
+        drawing = TabDoor(tabs, "Draw", lambda: _drawing_room(drawn))
+        hardware = TabDoor(tabs, "Hardware", lambda: _hardware_room(wired))
+        for label in ("Robot", "View"):
+            tabs.listen(label)
         self._closers += [overlay.close, ghosts.close, robot_panel.close, lab.close]
         self._closers += [motion.close, drawing.close, hardware.close, access.close]
+        if self._library is not None:
+            lessons = LessonDoor(client, desks, self._library, self._workshop.people, self.browser, bench, tabs)
+            self._closers.append(lessons.close)
+        if self._hall is not None and self._class_page is not None:
+            hall = self._hall
+            self._class_page.when_instructor(lambda: self._open_instructor(hall, bench))
 
-    def _worker(self, failed: Callable[[], None] | None = None) -> Worker:
-        """A line of slow work; `failed` is called after a job of it could not be done and the user was told."""
+    def _open_instructor(self, hall: Hall, bench: Bench) -> None:
+        from app.ui.classroom.instructor_desk import InstructorDesk  # one page of many needs it
+        from app.ui.classroom.instructor_room import InstructorRoom
 
-        def tell(sentence: str) -> None:
-            self._tell(sentence)
-            if failed is not None:
-                failed()
-
-        return self._employ(Worker(self._pools.slow, tell))
-
-    def _quick_worker(self) -> Worker:
-        return self._employ(Worker(self._pools.quick, self._tell))
-
-    def _employ(self, worker: Worker) -> Worker:
-        self._workers.append(worker)
-        return worker
+        desk = InstructorDesk(hall, self.browser, self._workshop, self.desks, self._tell)
+        self._closers.append(InstructorRoom(self._client, desk, bench).close)
 
     def _tell(self, sentence: str) -> None:
         self._client.add_notification("Delta Lab", sentence, color="red", auto_close_seconds=8)
+
+    def _tell_of_robot(self, sentence: str, color: Literal["red", "green"]) -> None:
+        seconds = 8 if color == "red" else 5
+        self._client.add_notification("The robot on the table", sentence, color=color, auto_close_seconds=seconds)
 
 
 def _drawing_room(surroundings: Surroundings) -> DrawingRoom:

@@ -11,24 +11,33 @@ import sys
 import threading
 import webbrowser
 from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
 
 import viser
 
+from app.classroom.opening import open_classroom
+from app.recent import Recent
+from app.resources import lessons_dir
 from app.robots import ROBOTS, build_robot
+from app.ui.classroom.hall import Hall
+from app.ui.classroom.invitation import Invitation
 from app.ui.compute import make_pools
 from app.ui.drawing.warm_up import warm_up_server, warm_up_worker
 from app.ui.guard import Guard, is_loopback
 from app.ui.hardware.workshop import Workshop, choose_pin
 from app.ui.jobs import warm_up
 from app.ui.lab.jobs import warm_up as warm_up_control
+from app.ui.lessons.library import Library
 from app.ui.options import ServeOptions
-from app.ui.recent import Recent
 from app.ui.room import Room
 from app.ui.shape_cache import ShapeCache
 from app.ui.stage import light_the_room
 from app.ui.state import Memory, ViewOptions
 from app.ui.viser_adapter import browser_id, start_server, stop_server
 from app.ui.workspace_view import CACHE_SIZE, WorkspaceCache
+
+if TYPE_CHECKING:
+    from app.classroom.lessons.course import Course
 
 REMEMBERED = 200
 """Browsers that find their robot again after a reload; the longest absent are forgotten first. A picture takes 1 MB."""
@@ -48,8 +57,21 @@ class Lab:
         self._memories: Recent[str, Memory] = Recent(REMEMBERED)
         self._fresh = Memory(options.robot, view=ViewOptions(shadows=options.shadows))
         local_only = is_loopback(options.host)
-        self.pin = choose_pin(options.pin, serial=options.serial is not None, local_only=local_only)
-        self.workshop = Workshop(self.pin, local_only=local_only)
+        self.pin = choose_pin(
+            options.pin, serial=options.serial is not None, local_only=local_only, in_class=options.classroom
+        )
+        self._loading = threading.Lock()
+        self._course: Course | None = None
+        self.classroom = open_classroom(
+            options.data,
+            in_class=options.classroom,
+            pin=self.pin,
+            name=options.class_name,
+            outline=lambda: self._library.outline(),
+        )
+        self._library = Library(lambda: self.course, self._pools.quick)
+        self.workshop = Workshop(self.classroom, local_only=local_only)
+        self.hall = Hall(self.classroom, self.pin, self._shapes, self._invite) if options.classroom else None
         self.rooms: dict[int, Room] = {}
         self.server = start_server(options.host, options.port, Guard(allowed_hosts=options.allowed_hosts))
         light_the_room(self.server)
@@ -62,10 +84,24 @@ class Lab:
         host = "localhost" if self._options.host in ("127.0.0.1", "0.0.0.0", "::1", "::") else self._options.host
         return f"http://{host}:{self.server.get_port()}"
 
+    @property
+    def course(self) -> Course:
+        """The lessons; read when somebody wants them first."""
+        with self._loading:  # the warm-up and the first page may both want it first
+            if self._course is None:
+                from app.classroom.lessons.course import Course
+
+                self._course = Course(lessons_dir())
+            return self._course
+
+    def _invite(self) -> Invitation:
+        return Invitation(self._options.host, self.server.get_port(), self.classroom.code)
+
     def close(self) -> None:
         """Stop at once; what the workers compute is dropped."""
         stop_server(self.server)
         self.workshop.close()
+        self.classroom.close()
         for process in multiprocessing.active_children():
             process.kill()
         self._pools.shutdown()
@@ -89,6 +125,7 @@ class Lab:
             yield functools.partial(pool.submit, warm_up_worker)
         yield warm_up_server
         yield self.workshop.warm_up
+        yield lambda: self.course
         yield lambda: self._pools.slow.submit(warm_up)
         for name in ROBOTS:
             yield lambda name=name: self._shapes.learn(build_robot(name, {}))
@@ -97,7 +134,8 @@ class Lab:
 
     async def _welcome(self, client: viser.ClientHandle) -> None:
         memory = self._memory_of(browser_id(client))
-        room = Room(client, memory, self._pools, self._shapes, self._spaces, self.workshop)
+        caches = self._shapes, self._spaces
+        room = Room(client, memory, self._pools, *caches, self.workshop, self.hall, self._library)
         self.rooms[client.client_id] = room
         await room.furnish()
 
@@ -123,12 +161,16 @@ def serve(options: ServeOptions) -> None:
         signal.signal(number, lambda *_: stop.set())
     lab = Lab(options)
     print(f"Delta Lab is running at {lab.url} (Ctrl-C stops it)", flush=True)
-    if lab.pin:
+    if lab.classroom.notice:
+        print(lab.classroom.notice, flush=True)
+    if lab.hall is not None:
+        print(lab.hall.invitation.text(lab.pin, sys.stdout.encoding), flush=True)
+    elif lab.pin:
         print(f"The instructor's PIN is {lab.pin}", flush=True)
     if options.serial is not None:
         lab.workshop.connect_at_start(options.serial, lambda sentence: print(sentence, flush=True))
     if options.open_browser:
-        webbrowser.open(lab.url)
+        webbrowser.open(lab.url if lab.hall is None else lab.hall.instructor_url)
     try:
         if not stop.wait(WARM_UP_AFTER_S):
             # on another thread: Ctrl-C is heeded at once

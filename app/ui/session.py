@@ -7,32 +7,16 @@ Everything runs on the server's event loop, so there are no locks.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Generic, TypeVar
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
 from app.robots import ROBOTS, Reach, Robot, build_robot
+from app.signal import Signal as Signal  # others know it from here
 from app.ui.state import Joints, Memory, Pose, Stance, ViewOptions
-
-T = TypeVar("T")
 
 FARTHEST_WISH_M = 2.0
 """A gizmo dragged farther away counts as this far."""
-
-
-class Signal(Generic[T]):
-    """Tells its listeners, in the order in which they came."""
-
-    def __init__(self) -> None:
-        self._listeners: list[Callable[[T], None]] = []
-
-    def connect(self, listener: Callable[[T], None]) -> None:
-        self._listeners.append(listener)
-
-    def emit(self, news: T) -> None:
-        for listener in tuple(self._listeners):
-            listener(news)
 
 
 class Session:
@@ -42,6 +26,9 @@ class Session:
         self.robot_changed: Signal[Robot] = Signal()
         self.stance_changed: Signal[Stance] = Signal()
         self.view_changed: Signal[ViewOptions] = Signal()
+        self.locks_changed: Signal[frozenset[str]] = Signal()
+        self.locks: frozenset[str] = frozenset()
+        """What a lesson does not let the student change: `robot`, `geometry`. The lesson itself may."""
         self.robot_name = memory.robot
         self.dimensions = dict(memory.dimensions)
         self.view = memory.view
@@ -55,6 +42,8 @@ class Session:
         """How controllers were compared, for the next visit."""
         self.maps = memory.maps
         """Which map was chosen, for the next visit."""
+        self.in_lesson = memory.in_lesson
+        """Whether the lessons are open, for the next visit."""
         self.robot = build_robot(self.robot_name, self.dimensions)
         pose = memory.pose if memory.pose and self.robot.reach(memory.pose).ok else tuple(self.robot.home.tolist())
         self.stance = self._standing(pose)
@@ -63,7 +52,13 @@ class Session:
     def memory(self) -> Memory:
         """What to keep for the next visit."""
         place = self.robot_name, dict(self.dimensions), self.stance.pose, self.view
-        return Memory(*place, self.control, self.drawing, self.motion, self.comparison, self.maps)
+        return Memory(*place, self.control, self.drawing, self.motion, self.comparison, self.maps, self.in_lesson)
+
+    def lock(self, what: frozenset[str]) -> None:
+        """Let the student's panels change everything but this."""
+        if what != self.locks:
+            self.locks = what
+            self.locks_changed.emit(what)
 
     def choose_robot(self, name: str) -> None:
         """Take another robot, with its default dimensions, at home."""

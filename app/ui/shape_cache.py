@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from app.recent import Recent
 from app.robots import Robot
 from app.robots.parts import Part, machine_of
 from app.robots.parts.shading import Arrays
-from app.ui.recent import Recent
 
 CAPACITY = 512
 

@@ -65,8 +65,9 @@ class Stage:
         self._session = session
         self._dark = session.view.dark
         self._shadows: bool | None = None
+        self._guest: Robot | None = None
         self._robot_name = session.robot_name
-        session.robot_changed.connect(self._receive)
+        session.robot_changed.connect(lambda _: self._receive())
         session.view_changed.connect(self._follow)
         self._apply_theme()
         self._follow(session.view)
@@ -75,10 +76,19 @@ class Stage:
         self.look("3-D")
         width.known.connect(self._learn_width)
 
+    @property
+    def _robot(self) -> Robot:
+        return self._guest or self._session.robot
+
+    def host(self, guest: Robot | None) -> None:
+        """Somebody else's robot stands here; None: one's own again."""
+        self._guest = guest
+        self._receive()
+
     def look(self, view: View) -> None:
         """Turn the camera to a preset that shows the whole machine, on a wide screen or a tall one."""
-        low, high = _extent(self._session.robot)
-        direction = np.array(DIRECTIONS[view] or machine_of(self._session.robot).seen_from)
+        low, high = _extent(self._robot)
+        direction = np.array(DIRECTIONS[view] or machine_of(self._robot).seen_from)
         self._aim(0.5 * (low + high), float(np.linalg.norm(high - low)), direction)
 
     def look_down_on(self, focus: tuple[float, float, float], size: float) -> None:
@@ -103,11 +113,11 @@ class Stage:
             self._on_a_phone = not self._on_a_phone
             self.look("3-D")
 
-    def _receive(self, robot: Robot) -> None:
+    def _receive(self) -> None:
         """Another robot is looked at anew; the same one in other dimensions is not."""
         self._lay_floor()
-        if robot.name != self._robot_name:
-            self._robot_name = robot.name
+        if self._robot.name != self._robot_name:
+            self._robot_name = self._robot.name
             self.look("3-D")
 
     def _follow(self, view: ViewOptions) -> None:
@@ -141,7 +151,7 @@ class Stage:
             shadow_opacity=0.35 if self._dark else 0.22,
             plane_color=plane,
             plane_opacity=1.0,
-            position=(0.0, 0.0, machine_of(self._session.robot).floor),
+            position=(0.0, 0.0, machine_of(self._robot).floor),
         )
 
 

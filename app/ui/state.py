@@ -113,3 +113,5 @@ class Memory:
     """None before controllers were compared."""
     maps: MapSettings | None = None
     """None before a map was chosen."""
+    in_lesson: bool | None = None
+    """Whether the lessons were open; None before anybody opened or closed them."""

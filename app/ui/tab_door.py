@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Generic, Protocol, TypeVar
 
-import viser
-
-from app.ui.tab_bell import on_tab_opened
+from app.ui.tabs import Tabs
 
 
 class TabRoom(Protocol):
@@ -30,11 +28,11 @@ Behind = TypeVar("Behind", bound=TabRoom)
 class TabDoor(Generic[Behind]):
     """The tab with this label, before and after somebody has opened it."""
 
-    def __init__(self, client: viser.ClientHandle, label: str, make: Callable[[], Behind]) -> None:
+    def __init__(self, tabs: Tabs, label: str, make: Callable[[], Behind]) -> None:
         self._make = make
         self.room: Behind | None = None
         """None before the first visit."""
-        on_tab_opened(client, label, self._open)
+        tabs.listen(label, self._open)
 
     def close(self) -> None:
         if self.room is not None:

@@ -7,10 +7,10 @@ from collections.abc import Hashable
 
 import viser
 
+from app.recent import Recent
 from app.ui import jobs
 from app.ui.compute import Worker
 from app.ui.jobs import CloudPicture, SurfacePicture
-from app.ui.recent import Recent
 from app.ui.session import Session
 
 CACHE_SIZE = 48

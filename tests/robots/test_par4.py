@@ -101,7 +101,7 @@ def test_the_error_printed_in_equation_18():
     """With the printed sign of its d_3 term, drive 3 is off by about 3.1 degrees in the centre."""
     robot = Par4(Par4Geometry())
     g = robot.geometry
-    E, F, G = robot._coefficients(math, 0.0, -0.036, -0.3, 0.0)[2]
+    E, F, G = robot.leg_equations(math, 0.0, -0.036, -0.3, 0.0)[2]
     printed = F - 4.0 * g.L * g.d_i * math.cos(ARM_AZIMUTHS[2])
     shift = math.degrees(outer_angle_scalar(E, printed, G) - outer_angle_scalar(E, F, G))
     assert shift == pytest.approx(3.1, abs=0.05)

@@ -15,6 +15,7 @@ from app.motion.trajectory import Sample
 from app.robots import ROBOTS, make_robot
 from app.robots.dynamics import dynamics_of
 from app.simulation.closed_loop import Experiment, compare, ranking, simulate
+from app.simulation.helix import helix_experiment
 from app.simulation.tracking import TrackingError
 
 RISE_S = 0.2
@@ -103,6 +104,14 @@ def test_a_filter_lags_behind_the_true_rate():
     settled = run.t > 0.03
     assert np.abs(told - truth)[settled].max() > 0.02
     assert np.abs(told - expected)[settled].max() < 0.4 * np.abs(told - truth)[settled].max()
+
+
+def test_a_loop_that_runs_away_is_one_sentence_whatever_its_sensor():
+    wild = helix_experiment("PID", "T2").changed(
+        tuning=Tuning.equal("linear", "PID", 40.0), delay_samples=5, encoder_step=1e-5, velocity_filter_hz=200.0
+    )
+    with pytest.raises(TrackingError, match=r"torn out of its reach after \d"):
+        simulate(wild)
 
 
 def test_efforts_are_limited_unless_asked_otherwise():

@@ -1,68 +1,17 @@
-"""Names by browser, and the instructor's PIN."""
+"""What the tab Hardware makes of who is who: the port, the PIN, and who may ask for the robot."""
 
 from __future__ import annotations
 
-import pytest
-
-from app.ui.hardware.people import LONGEST_NAME, TRIES, TRIES_OF_ALL, People, random_pin
+from app.classroom.classroom import NAME_STAYS, Classroom
+from app.ui.hardware.desk import HardwareDesk
 from app.ui.hardware.workshop import ONLY_INSTRUCTOR, Workshop, choose_pin
+from app.ui.session import Session
+from app.ui.state import Memory
 
 
-class Clock:
-    now = 100.0
-
-    def __call__(self) -> float:
-        return self.now
-
-
-def test_everybody_has_a_name_of_his_own_and_keeps_it():
-    people = People("")
-    assert [people.person(key).name for key in "abcab"] == ["Guest 1", "Guest 2", "Guest 3", "Guest 1", "Guest 2"]
-
-
-@pytest.mark.parametrize(
-    ("typed", "kept"),
-    [
-        ("  Ada   Lovelace ", "Ada Lovelace"),
-        ("", "Guest 1"),
-        (" \t\n", "Guest 1"),
-        ("a\u202eb\x00c", "a b c"),
-        ("<b>x</b>", "<b>x</b>"),
-        ("x" * 100, "x" * LONGEST_NAME),
-    ],
-)
-def test_names_are_short_and_printable(typed: str, kept: str):
-    people = People("")
-    assert people.rename("a", typed).name == kept == people.person("a").name
-
-
-def test_only_the_pin_makes_an_instructor_who_then_stays_one():
-    people = People("0471")
-    assert "not the PIN" in people.prove("a", "471") and not people.person("a").instructor
-    assert people.prove("a", " 0471 ") == ""
-    assert people.rename("a", "Ms Ng").instructor and not people.person("b").instructor
-
-
-def test_wrong_pins_are_limited_by_browser_for_a_minute():
-    clock = Clock()
-    people = People("0471", clock)
-    for _ in range(TRIES):
-        assert "not the PIN" in people.prove("a", "1111")
-    assert "Too many" in people.prove("a", "0471"), "the right one too: else the limit would be of no use"
-    assert people.prove("b", "0471") == ""
-    clock.now += 61.0
-    assert people.prove("a", "0471") == ""
-
-
-def test_new_browsers_give_no_more_than_the_tries_of_all():
-    people = People("0471", Clock())
-    for number in range(TRIES_OF_ALL):
-        assert "not the PIN" in people.prove(f"browser {number}", "1111")
-    assert "Too many" in people.prove("another", "0471")
-
-
-def test_without_a_pin_nobody_is_the_instructor():
-    assert "no instructor" in People("").prove("a", "")
+def desk_in(classroom: Classroom) -> tuple[HardwareDesk, list[str]]:
+    told: list[str] = []
+    return HardwareDesk(Session(Memory("par4")), Workshop(classroom), "a", lambda said, _: told.append(said)), told
 
 
 def test_a_pin_is_made_where_one_is_needed():
@@ -70,12 +19,33 @@ def test_a_pin_is_made_where_one_is_needed():
     assert choose_pin(None, serial=False, local_only=True) == ""
     for pin in (choose_pin(None, serial=True, local_only=True), choose_pin(None, serial=False, local_only=False)):
         assert len(pin) == 4 and pin.isdigit()
-    assert len({random_pin() for _ in range(40)}) > 10
+    in_class = choose_pin(None, serial=False, local_only=True, in_class=True)
+    assert len(in_class) == 6 and in_class.isdigit()
 
 
 def test_on_the_network_only_the_instructor_chooses_the_port():
-    at_home, in_class = Workshop(), Workshop("1234", local_only=False)
+    at_home, in_class = Workshop(), Workshop(Classroom.in_memory(pin="1234"), local_only=False)
     assert at_home.why_no_port(at_home.people.person("a")) == ""
     assert in_class.why_no_port(in_class.people.person("a")) == ONLY_INSTRUCTOR
     in_class.people.prove("a", "1234")
     assert in_class.why_no_port(in_class.people.person("a")) == ""
+
+
+def test_who_works_alone_calls_himself_as_he_likes():
+    desk, told = desk_in(Classroom.in_memory())
+    desk.rename("Ada")
+    assert (desk.me.name, told) == ("Ada", [])
+
+
+def test_in_a_class_the_name_is_the_one_he_joined_with():
+    classroom = Classroom.in_memory(in_class=True)
+    classroom.join("a", "Ada", classroom.code)
+    desk, told = desk_in(classroom)
+    desk.rename("Bob")
+    assert (desk.me.name, told) == ("Ada", [NAME_STAYS])
+
+
+def test_a_visitor_who_has_not_joined_does_not_get_the_robot():
+    desk, told = desk_in(Classroom.in_memory(in_class=True))
+    desk.do("request")
+    assert len(told) == 1 and told[0].startswith("Join the class first")

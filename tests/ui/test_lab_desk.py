@@ -170,6 +170,12 @@ def test_runs_are_the_papers_and_are_kept():
     with_worker(scene)
 
 
+def test_table_3_as_in_the_paper_has_no_filter():
+    run = run_robot(changed(PAR4, as_in_paper=True, tuning=TABLE_3, lap_s=10.0), {})
+    assert not isinstance(run, Refusal)
+    assert run.ise == pytest.approx(circle_tracking("approx", lap_s=10.0, duration_s=10.0).ise)
+
+
 def test_a_run_can_be_cancelled_and_an_impossible_one_is_refused():
     async def scene(worker: Worker, told: list[str]) -> None:
         book = RunBook(Session(Memory("par4")), worker, told.append)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from math import isfinite
 
 from app.control.laws import Law
 from app.simulation.closed_loop.drives import Drives
@@ -57,15 +58,15 @@ class Loop:
         for k in range(self.steps):
             if k in self.events:
                 self.events[k]()
-            pose = plant.pose
-            if pose[0] != pose[0]:
+            pose, joints = plant.pose, plant.joints
+            if not isfinite(pose[0] + sum(joints)):
                 raise _lost(k * period)
             state = read()
             applied = drives.limited(law.effort(k, state, applied), state.joint_rates)
             acting = drives.delayed(applied)
             keep_pose(pose)
             keep_rate(plant.rate)
-            keep_joints(plant.joints)
+            keep_joints(joints)
             keep_effort(acting)
             watch()
             plant.advance(acting, period)

@@ -122,6 +122,17 @@ class CompareDesk:
         """Keep what is there, and drop the rest."""
         self.series.cancel()
 
+    def forget(self) -> None:
+        """Nothing was compared yet."""
+        self.series.cancel()
+        self.comparison = self.before = None
+        self.answered.emit(None)
+
+    def tell_again(self) -> None:
+        """For listeners that came later."""
+        if self.comparison is not None:
+            self.answered.emit(self.comparison)
+
     def best(self) -> str | None:
         """The law that is first for what is looked at."""
         scores = self.comparison.scores if self.comparison is not None else {}

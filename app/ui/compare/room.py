@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import viser
 
-from app.ui.compare.desk import CompareDesk
 from app.ui.compare.jobs import comparison_csv
 from app.ui.compare.scene import CompareScene
 from app.ui.downloads import send
-from app.ui.motion.desk import MotionDesk
 from app.ui.motion.surroundings import MotionSurroundings
 from app.ui.panels.compare.effects_panel import EffectsPanel
 from app.ui.panels.compare.play_panel import PlayPanel
@@ -16,17 +14,15 @@ from app.ui.panels.compare.results_panel import ResultsPanel
 from app.ui.panels.compare.run_bar import RunBar
 from app.ui.panels.compare.standings import Standings
 from app.ui.panels.compare.task_panel import TaskPanel
-from app.ui.series import Series
 
 
 class CompareRoom:
     """Built with the tab Motion."""
 
-    def __init__(self, surroundings: MotionSurroundings, desk: MotionDesk) -> None:
+    def __init__(self, surroundings: MotionSurroundings) -> None:
         self._client = surroundings.client
         self._bench = surroundings.bench
-        series = Series(surroundings.slow(lambda: series.failed()))
-        self.desk = CompareDesk(surroundings.session, desk, series, surroundings.tell)
+        self.desk = surroundings.desks.compare
         self._scene = CompareScene(surroundings, self.desk)
         self._files = surroundings.slow(None)
         self._play: PlayPanel | None = None
@@ -49,6 +45,7 @@ class CompareRoom:
         self._play = PlayPanel(gui, self.desk, self._scene)
         ResultsPanel(gui, self.desk)
         self._add_file()
+        self.desk.tell_again()
 
     def show(self) -> None:
         self._scene.visible(True)
@@ -57,7 +54,6 @@ class CompareRoom:
         self._scene.visible(False)
 
     def close(self) -> None:
-        self.desk.cancel()
         self._scene.close()
         if self._play is not None:
             self._play.close()

@@ -65,6 +65,8 @@ class DrawingDesk:
         """The way along the drawing that is shown; None while it is being planned."""
         self.refused: Signal[Refusal | TooDense | None] = Signal()
         """Why the last change could not be drawn; None when all is well again."""
+        self.saved: Signal[Sketch] = Signal()
+        """What is shown was saved as a file."""
         self._session = session
         self._quick, self._thorough, self._reader, self._planner = quick, thorough, reader, planner
         memory = session.drawing
@@ -82,6 +84,11 @@ class DrawingDesk:
         """Why the robot cannot draw what is shown; `refusal` may be about something newer."""
         self.settled: Callable[[], bool] = lambda: True
         """Whether the drawing may be exchanged for a quicker one: not while the robot draws it."""
+        self.is_saved = False
+        """Whether what is shown was saved as a file; a better order of it counts as the same."""
+        self.is_improved = False
+        """Whether it is drawn in a better order than the first."""
+        self._opened = False
         self._improvement: Improvement | None = None
         self._rounds = 0
         self._patience: asyncio.TimerHandle | None = None
@@ -105,7 +112,20 @@ class DrawingDesk:
         return Setup(session.robot_name, dict(session.dimensions), self.placement, self.settings.pen)
 
     def open(self) -> None:
-        """Somebody looks at the tab for the first time."""
+        """Somebody looks at the tab: he sees the drawing of his last visit, or a first one.
+
+        Whoever comes later hears again what there is.
+        """
+        if self._opened:
+            self._tell_again()
+        else:
+            self.look()
+
+    def look(self) -> None:
+        """Somebody wants to know what comes of the settings."""
+        if self._opened:
+            return
+        self._opened = True
         if self.source is None:
             self.take_sample(FIRST_SAMPLE)
         else:
@@ -123,6 +143,7 @@ class DrawingDesk:
 
     def take_strokes(self, strokes: list[NDArray[np.float64]]) -> None:
         """Drawn by hand, sheet mm."""
+        self._opened = True
         if self.source is not None:
             self._reader.cancel()  # the hand is newer than what is being read
         if strokes:
@@ -165,6 +186,29 @@ class DrawingDesk:
         elif sketch is not None and self._up_to_date:
             self._quick.request(partial(self._warn, sketch), jobs.outside_of, sketch.strokes, self.setup)
 
+    def note_saved(self) -> None:
+        """What is shown was saved as a file."""
+        if self.sketch is not None:
+            self.is_saved = True
+            self.saved.emit(self.sketch)
+
+    @property
+    def up_to_date(self) -> bool:
+        """Whether what is shown is what was asked for."""
+        return self._up_to_date and self.sketch is not None and self.sketch.setup == self.setup
+
+    def improve_now(self) -> None:
+        """Look for a better order at once, and not only after a while."""
+        self.leave_alone()
+        self._look_for_better()
+
+    def _tell_again(self) -> None:
+        if self.sketch is not None:
+            self.sketched.emit(self.sketch)
+            self.planned.emit(self.plan)
+        if self.refusal is not None:
+            self.refused.emit(self.refusal)
+
     def _warn(self, sketch: Sketch, outside: list[NDArray[np.bool_]]) -> None:
         if sketch is self.sketch:
             self.moved.emit(outside)
@@ -181,6 +225,7 @@ class DrawingDesk:
         self.settings_changed.emit(settings)
 
     def _read(self, name: str, job: Callable[..., Source | Refusal], *arguments: object) -> None:
+        self._opened = True
         self._reader.request(lambda result: self._receive_source(name, result), job, *arguments)
 
     def _receive_source(self, name: str, result: Source | Refusal) -> None:
@@ -224,6 +269,7 @@ class DrawingDesk:
 
     def _show(self, result: Sketch) -> None:
         self.leave_alone()
+        self.is_saved = self.is_improved = False
         self.sketch, self.plan, self.no_way = result, None, None
         self._improvement, self._rounds = Improvement(result.strokes), 0
         self.sketched.emit(result)
@@ -258,6 +304,7 @@ class DrawingDesk:
         if result is None or not self.settled():
             return
         self._improvement, self.sketch, self.plan = result.state, result.sketch, result.plan
+        self.is_improved = True
         self.sketched.emit(result.sketch)
         self.planned.emit(result.plan)
         self._look_for_better()

@@ -14,6 +14,7 @@ from app.drawing.errors import DrawingError, TooManyStrokes
 from app.drawing.exports import EXPORTS, write_gcode, write_preview_png, write_toolpath_csv
 from app.drawing.modes import DRAWING_MODES
 from app.drawing.order import Improvement, between_mm, ink_mm, join_touching
+from app.drawing.retraced import retraced_share
 from app.drawing.samples import sample_bytes
 from app.drawing.source import Source, read_source, text_source
 from app.drawing.toolpath import (
@@ -75,6 +76,8 @@ class Sketch:
     """PNG of the sheet."""
     original: bytes | None
     """JPEG of the prepared picture."""
+    retraced: float
+    """0 to 1, share of the ink that runs along ink that is there already."""
 
     @property
     def chosen_look(self) -> Look:
@@ -158,6 +161,7 @@ def sketch(source: Source, look: Look, setup: Setup) -> Sketch | Refusal | TooDe
         outside,
         preview,
         _original(found),
+        retraced_share(found.strokes),
     )
 
 

@@ -6,9 +6,6 @@ import asyncio
 
 import viser
 
-from app.ui.drawing.desk import DrawingDesk
-from app.ui.drawing.jobs import Sketch
-from app.ui.drawing.player import DrawingPlayer
 from app.ui.drawing.scene import DrawingScene
 from app.ui.drawing.surroundings import Surroundings
 from app.ui.panels.drawing.compare_panel import ComparePanel
@@ -21,7 +18,6 @@ from app.ui.panels.drawing.preview_panel import PreviewPanel
 from app.ui.panels.drawing.run_panel import RunPanel
 from app.ui.panels.drawing.sheet_panel import SheetPanel
 from app.ui.panels.drawing.source_panel import SourcePanel
-from app.ui.playback import Playback
 from app.ui.plots import PLOT_STYLE
 from app.ui.series import Series
 
@@ -33,22 +29,15 @@ class DrawingRoom:
     """Built when the tab is opened for the first time."""
 
     def __init__(self, surroundings: Surroundings) -> None:
-        client, session, gizmo, stage, self._tab, self._bench, access, self._quick, self._slow = surroundings
+        client, session, desks, gizmo, stage, self._tab, self._bench, access, self._quick, self._slow = surroundings
         self._client = client
         self._access = access
-        self.desk = DrawingDesk(session, self._quick(), self._slow(None), self._quick(), self._slow(None))
-        self._playback = Playback(session)
-        self._player = DrawingPlayer(session, self._playback)
+        self.desk, self._player = desks.drawing, desks.player
         self._scene = DrawingScene(client, session, gizmo, stage, self.desk, self._player)
         self._panel = self._bench.add_panel()
         self._plays: list[PlayPanel] = []
         self._closed = False
         self._bench.shown.connect(lambda panel: self._scene.visible(panel is self._panel))
-
-    @property
-    def drawing(self) -> Sketch | None:
-        """What is shown, if the robot has a way to draw it."""
-        return None if self.desk.plan is None else self.desk.sketch
 
     async def build(self) -> None:
         """Panel by panel: others get their turn between them."""
@@ -69,8 +58,6 @@ class DrawingRoom:
 
     def close(self) -> None:
         self._closed = True
-        self._playback.pause()
-        self.desk.leave_alone()
         self._scene.close()
         for play in self._plays:
             play.close()

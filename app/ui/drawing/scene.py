@@ -40,7 +40,6 @@ class DrawingScene:
         self._outside: list[NDArray[np.bool_]] = []
         self._sheet = SheetView(client, session)
         self._ink = InkView(client.scene)
-        desk.settled = lambda: player.state in ("empty", "ready")
         desk.sketched.connect(self._show)
         desk.planned.connect(self._load)
         desk.moved.connect(self._warn)
@@ -96,14 +95,14 @@ class DrawingScene:
         self._sheet.show_plan(sketch.strokes, outside)
 
     def _load(self, plan: Plan | None) -> None:
-        """The robot's way and its ink come together: how long a stroke is, the way tells."""
+        """The player has the robot's way already: how long a stroke of ink is, the way tells."""
         self._ink.clear()
-        self._player.load(plan.track if plan is not None else None, speed=self._player.speed)
         sketch = self._desk.sketch
         if plan is not None and sketch is not None:
             metres = [1e-3 * stroke for stroke in sketch.strokes]
             marks_hops = sketch.setup.pen.marks_hops
             self._ink.load(metres, 1e-3 * sketch.look.pen_mm, marks_hops, self._player.lengths_m)
+            self._ink.show(*self._player.drawn)
 
     def _warn(self, outside: list[NDArray[np.bool_]]) -> None:
         """What would be out of reach where the sheet is being dragged; sent only when it changes."""

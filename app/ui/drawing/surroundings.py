@@ -9,6 +9,7 @@ import viser
 
 from app.ui.bench import Bench
 from app.ui.compute import Worker
+from app.ui.desks import Desks
 from app.ui.gizmo import Gizmo
 from app.ui.hardware.access import RobotAccess
 from app.ui.session import Session
@@ -20,6 +21,7 @@ class Surroundings(NamedTuple):
 
     client: viser.ClientHandle
     session: Session
+    desks: Desks
     gizmo: Gizmo
     stage: Stage
     tab: viser.GuiTabHandle

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import viser
 
+from app.ui.desks import Desks
 from app.ui.gizmo import Gizmo
 from app.ui.hardware.sign_of_life import SignOfLife
-from app.ui.hardware.workshop import Workshop
-from app.ui.session import Session
 from app.ui.shape_cache import ShapeCache
 
 if TYPE_CHECKING:
@@ -30,21 +29,17 @@ class RobotAccess:
     def __init__(
         self,
         client: viser.ClientHandle,
-        session: Session,
+        desks: Desks,
         gizmo: Gizmo,
         shapes: ShapeCache,
-        workshop: Workshop,
-        browser: str,
     ) -> None:
         self._client = client
-        self._session = session
+        self._desks = desks
         self._gizmo = gizmo
         self._shapes = shapes
-        self._workshop = workshop
-        self._browser = browser
         self._present: _Present | None = None
         self._waiting: list[Callable[[HardwareDesk], None]] = []
-        self._leave = workshop.watch.attend(self._look)
+        self._leave = desks.workshop.watch.attend(self._look)
 
     @property
     def desk(self) -> HardwareDesk:
@@ -66,7 +61,6 @@ class RobotAccess:
         self._leave()
         if self._present is not None:
             self._present.mirror.close()
-            self._present.desk.close()
 
     def _look(self, status: LinkStatus) -> None:
         if status.phase != "none":
@@ -83,12 +77,11 @@ class RobotAccess:
         return self._present
 
     def _make(self) -> _Present:
-        from app.ui.hardware.desk import HardwareDesk
         from app.ui.hardware.follower import Follower
         from app.ui.hardware.mirror import Mirror
         from app.ui.hardware.robot_ghost import RobotGhost
 
-        desk = HardwareDesk(self._session, self._workshop, self._browser, self._notify)
+        desk = self._desks.hardware
         life = SignOfLife(self._client, desk.alive)
         desk.status_changed.connect(lambda _: life.want(desk.engaged))
         desk.me_changed.connect(lambda _: life.want(desk.engaged))
@@ -96,7 +89,3 @@ class RobotAccess:
         Follower(desk, self._gizmo)
         RobotGhost(self._client, desk, self._shapes)
         return _Present(desk, mirror)
-
-    def _notify(self, sentence: str, color: Literal["red", "green"]) -> None:
-        seconds = 8 if color == "red" else 5
-        self._client.add_notification("The robot on the table", sentence, color=color, auto_close_seconds=seconds)

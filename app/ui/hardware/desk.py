@@ -11,6 +11,7 @@ from collections.abc import Callable
 from concurrent.futures import CancelledError, Future
 from typing import Literal, TypeVar
 
+from app.classroom.errors import ClassroomRefusal
 from app.link.emulated.faults import Faults
 from app.link.errors import LinkError
 from app.link.lease import Person
@@ -49,6 +50,8 @@ class HardwareDesk:
         self.me_changed: Signal[Person] = Signal()
         self.recorded: Signal[Recording] = Signal()
         """A recording was ended, or a test is done."""
+        self.begun: Signal[Program] = Signal()
+        """A program from this page runs."""
         self._workshop = workshop
         self._browser = browser
         self._notify = notify
@@ -60,6 +63,8 @@ class HardwareDesk:
         self.recording: Recording | None = None
         """The newest."""
         self._last_refusal = ""
+        self.granted = self.refused = 0
+        """How many orders of this page the link has accepted, and how many not."""
 
     @property
     def me(self) -> Person:
@@ -93,7 +98,9 @@ class HardwareDesk:
     def show_it(self) -> None:
         """Show the robot on the table in the page's picture."""
         board = self.status.robot
-        if board is not None:
+        if self.session.locks:
+            self.tell("The lesson needs the robot that is shown: show another one after this step.")
+        elif board is not None:
             self.session.choose_robot(board.name)
             self.session.reshape(**changed_dimensions(board))
 
@@ -108,7 +115,10 @@ class HardwareDesk:
             self._leave = None
 
     def rename(self, name: str) -> None:
-        self._workshop.people.rename(self._browser, name)
+        try:
+            self._workshop.people.rename(self._browser, name)
+        except ClassroomRefusal as refusal:
+            self.tell(str(refusal))
         self.me_changed.emit(self.me)
 
     def prove(self, pin: str) -> bool:
@@ -121,7 +131,9 @@ class HardwareDesk:
 
     def do(self, verb: str) -> None:
         """One of `VERBS`."""
-        if verb in VERBS:
+        if verb == "request" and self._workshop.people.member(self._browser) is None:
+            self.tell("Join the class first: then ask for the robot.")
+        elif verb in VERBS:
             self.ask(getattr(self.link, verb)(self.me))
 
     def connect(self, port: str) -> None:
@@ -160,7 +172,7 @@ class HardwareDesk:
         self.ask(self.link.mirror_end(self.me), once=True)
 
     def run(self, program: Program) -> None:
-        self.ask(self.link.run(self.me, program))
+        self.ask(self.link.run(self.me, program), lambda _: self.begun.emit(program))
 
     def set_override(self, share: float) -> None:
         self.ask(self.link.set_override(self.me, share))
@@ -220,6 +232,7 @@ class HardwareDesk:
         try:
             result = answer.result()
         except LinkError as refusal:
+            self.refused += 1
             self._refuse(str(refusal), once)
             failed()
         except CancelledError:
@@ -230,6 +243,7 @@ class HardwareDesk:
             failed()
         else:
             self._last_refusal = ""
+            self.granted += 1
             then(result)
 
     def _refuse(self, sentence: str, once: bool) -> None:

@@ -32,7 +32,7 @@ class HardwareRoom:
         self._around = surroundings
         bench = surroundings.bench
         self.desk = surroundings.access.desk
-        self._shelf = Shelf(surroundings.drawing, surroundings.run)
+        self._shelf = Shelf(lambda: surroundings.desks.planned_drawing, lambda: surroundings.desks.run)
         self._panel = bench.add_panel()
         self._program: ProgramPanel | None = None
         self._live: LivePanel | None = None
@@ -88,9 +88,9 @@ class HardwareRoom:
     def _add_experiments(self) -> None:
         client, desk, around = self._around.client, self.desk, self._around
         with self._panel.add_tab("Record", viser.Icon.PLAYER_RECORD):
-            record = RecordPanel(client, desk, around.slow(lambda: record.failed()))
+            record = RecordPanel(client, desk, around.desks.twin, around.slow(lambda: record.failed()))
         with self._panel.add_tab("Drive", viser.Icon.ENGINE):
-            drive = DrivePanel(client, desk, around.slow(lambda: drive.failed()), around.use_motor)
+            drive = DrivePanel(client, desk, around.slow(lambda: drive.failed()), around.desks.use_motor)
         with self._panel.add_tab("Calibrate", viser.Icon.RULER_MEASURE):
             calibration = CalibrationPanel(client, desk, around.slow(lambda: calibration.failed()))
 

@@ -7,7 +7,8 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from typing import TYPE_CHECKING
 
-from app.ui.hardware.people import People, random_pin
+from app.classroom.classroom import Classroom
+from app.classroom.codes import random_pin
 from app.ui.hardware.watch import Watch
 
 if TYPE_CHECKING:
@@ -23,8 +24,8 @@ ONLY_INSTRUCTOR = "Only the instructor chooses the port on this server: give the
 class Workshop:
     """One a server. The link, and all that it needs, is loaded when somebody wants it."""
 
-    def __init__(self, pin: str = "", *, local_only: bool = True) -> None:
-        self.people = People(pin)
+    def __init__(self, people: Classroom | None = None, *, local_only: bool = True) -> None:
+        self.people = people or Classroom.in_memory()
         self.watch = Watch(lambda: self.status)
         self._local_only = local_only
         self._table: Table | None = None
@@ -82,8 +83,13 @@ class Workshop:
         return f"The robot on {port} is connected." if error is None else f"{error}"
 
 
-def choose_pin(pin: str | None, *, serial: bool, local_only: bool) -> str:
+CLASS_PIN_DIGITS = 6
+
+
+def choose_pin(pin: str | None, *, serial: bool, local_only: bool, in_class: bool = False) -> str:
     """The instructor's PIN: as given, or a new one where one is needed; empty where nobody needs one."""
     if pin is not None:
         return pin
+    if in_class:
+        return random_pin(CLASS_PIN_DIGITS)
     return "" if local_only and not serial else random_pin()

@@ -34,7 +34,8 @@ class ControlDesk:
         self.answered: Signal[Answer] = Signal()
         self._session = session
         self._worker = worker
-        self.settings = session.control or default_settings(session.robot_name)
+        kept = session.control
+        self.settings = kept if kept and kept.robot == session.robot_name else default_settings(session.robot_name)
         self.baseline: Baseline | None = None
         self.answer: Answer | None = None
         self.active = False
@@ -42,10 +43,12 @@ class ControlDesk:
         session.robot_changed.connect(self._follow_robot)
 
     def open(self) -> None:
-        """Somebody looks at the lab."""
+        """Somebody looks at the lab, maybe after others: he hears the last answer again."""
         if not self.active:
             self.active = True
             self._ask()
+        elif self.answer is not None:
+            self.answered.emit(self.answer)
 
     def change(self, **values: object) -> None:
         """Set some values; gains set by hand end a tuning method."""

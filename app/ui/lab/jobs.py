@@ -6,7 +6,8 @@ import math
 from dataclasses import replace
 from typing import NamedTuple
 
-from app.control.tuning.methods import METHODS, Wish
+from app.control import PID_APPROX, Pid
+from app.control.tuning.methods import METHODS, TABLE_3, Wish
 from app.control.tuning.reaction_curve import TuningError
 from app.motion import PATHS
 from app.simulation import Run, Task, TrackingError, follow_sampled, follow_simulink
@@ -63,13 +64,18 @@ def run_robot(settings: ControlSettings, dimensions: dict[str, float]) -> Run | 
     title = run_title(settings)
     try:
         if wanted.as_in_paper:
-            run = follow_simulink(task, settings.pid, PAPER_LIMIT_PERCENT, title=title)
+            run = follow_simulink(task, _as_printed(settings), PAPER_LIMIT_PERCENT, title=title)
         else:
             run = follow_sampled(task, settings.motor, settings.pid, settings.sampling, settings.hardware, title)
     except TrackingError as error:
         return Refusal(str(error))
     assert run.pose.shape == run.pose_ref.shape, "computed here, not on the event loop"
     return run
+
+
+def _as_printed(settings: ControlSettings) -> Pid:
+    """Table 3 prints no filter; a board needs one, the paper's simulation had none."""
+    return PID_APPROX if settings.tuning == TABLE_3 else settings.pid
 
 
 def run_title(settings: ControlSettings) -> str:

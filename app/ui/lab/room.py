@@ -7,14 +7,12 @@ from collections.abc import Callable
 
 import viser
 
-from app.control.motor import Motor
-from app.simulation import Run
 from app.ui.bench import Bench
 from app.ui.compute import Worker
+from app.ui.desks import Desks
 from app.ui.hardware.access import RobotAccess
 from app.ui.lab.desk import ControlDesk
 from app.ui.lab.run_book import RunBook
-from app.ui.lab.settings import changed, default_settings
 from app.ui.lab.traps import TRAPS
 from app.ui.panels.lab.board_panel import BoardPanel
 from app.ui.panels.lab.control_panel import ControlPanel
@@ -22,10 +20,8 @@ from app.ui.panels.lab.motor_panel import MotorPanel
 from app.ui.panels.lab.run_panel import RunPanel
 from app.ui.panels.lab.run_settings_panel import variants
 from app.ui.panels.lab.study_panel import FrequencyPlots, ResponsePlot, StepPlots
-from app.ui.playback import Playback
 from app.ui.plots import PLOT_STYLE
-from app.ui.session import Session
-from app.ui.tab_bell import on_tab_opened
+from app.ui.tabs import Tabs
 
 PHONE_PLOT_PX = 140
 """On a phone the plots are a section further down, so the response also stands above the sliders, and stays there."""
@@ -37,47 +33,23 @@ class ControlRoom:
     def __init__(
         self,
         client: viser.ClientHandle,
-        session: Session,
+        tabs: Tabs,
         tab: viser.GuiTabHandle,
         bench: Bench,
-        quick: Worker,
+        desks: Desks,
         slow: Callable[[Callable[[], None] | None], Worker],
-        tell: Callable[[str], None],
         access: RobotAccess,
     ) -> None:
         self._client = client
-        self._session = session
         self._tab = tab
         self._bench = bench
-        self._quick = quick
+        self._desks = desks
         self._slow = slow
-        self._tell = tell
         self._access = access
         self._runs: RunPanel | None = None
         self._panel: viser.PanelHandle | None = None
-        self._desk: ControlDesk | None = None
-        self._book: RunBook | None = None
         self._building = self._closed = False
-        on_tab_opened(client, "Control", self._open)
-
-    @property
-    def run(self) -> Run | None:
-        """The run that is shown."""
-        return None if self._book is None else self._book.run
-
-    def use_motor(self, robot: str, motor: Motor, origin: str) -> str:
-        """Take an identified motor, now or when the tab is opened; returns why not, or nothing."""
-        session = self._session
-        if robot != session.robot_name:
-            return "The page shows another robot than the one with this motor: show that one first."
-        if self._desk is not None:
-            self._desk.change(motor=motor, motor_origin=origin)
-        else:
-            settings = session.control or default_settings(robot)
-            if settings.robot != robot:
-                settings = default_settings(robot)
-            session.control = changed(settings, motor=motor, motor_origin=origin)
-        return ""
+        tabs.listen("Control", self._open)
 
     def close(self) -> None:
         self._closed = True
@@ -93,16 +65,14 @@ class ControlRoom:
 
     async def _build(self) -> None:
         """Panel by panel: others get their turn between them."""
-        client, session = self._client, self._session
+        client, desk, book = self._client, self._desks.control, self._desks.runs
         client.gui.add_html(PLOT_STYLE)
-        desk = self._desk = ControlDesk(session, self._quick)
-        book = self._book = RunBook(session, self._slow(lambda: book.failed()), self._tell)
         panel = self._bench.add_panel()
         for furnish in (
             lambda: self._add_settings(desk, book),
             lambda: self._add_plots(panel, desk),
             lambda: self._add_runs(panel, desk, book),
-            lambda: self._add_motor(panel, desk),
+            lambda: self._add_motor(panel),
         ):
             furnish()
             client.flush()
@@ -137,8 +107,8 @@ class ControlRoom:
 
     def _add_runs(self, panel: viser.PanelHandle, desk: ControlDesk, book: RunBook) -> None:
         with panel.add_tab("Run", viser.Icon.PLAYER_PLAY):
-            self._runs = RunPanel(self._client, desk, book, Playback(self._session), self._slow(None))
+            self._runs = RunPanel(self._client, desk, book, self._desks.run_playback, self._slow(None))
 
-    def _add_motor(self, panel: viser.PanelHandle, desk: ControlDesk) -> None:
+    def _add_motor(self, panel: viser.PanelHandle) -> None:
         with panel.add_tab("Motor", viser.Icon.ENGINE):
-            motor = MotorPanel(self._client, desk, self._slow(lambda: motor.failed()))
+            MotorPanel(self._client, self._desks.motor)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
+from weakref import WeakKeyDictionary
 
 from app.robots import Robot
 from app.simulation import Run
@@ -33,6 +34,8 @@ class RunBook:
         self.runs: list[Run] = []
         self.run: Run | None = None
         self.busy = False
+        self._computing: ControlSettings | None = None
+        self._asked: WeakKeyDictionary[Run, ControlSettings] = WeakKeyDictionary()
         session.robot_changed.connect(self._follow_robot)
 
     def request(self, *experiments: ControlSettings) -> None:
@@ -51,6 +54,10 @@ class RunBook:
         self._wanted.clear()
         self._set_busy(False)
 
+    def asked(self, run: Run) -> ControlSettings:
+        """What was set for one of `runs`; gains of a tuning method are those from before it was applied."""
+        return self._asked[run]
+
     def select(self, run: Run | None) -> None:
         self.run = run
         self.selected.emit(run)
@@ -66,7 +73,8 @@ class RunBook:
             self._set_busy(False)
             return
         self._set_busy(True)
-        self._worker.request(self._receive, run_robot, self._wanted.popleft(), dict(self._session.dimensions))
+        self._computing = self._wanted.popleft()
+        self._worker.request(self._receive, run_robot, self._computing, dict(self._session.dimensions))
 
     def _receive(self, result: Run | Refusal) -> None:
         if isinstance(result, Refusal):
@@ -74,6 +82,8 @@ class RunBook:
             self._tell(result.reason)
             self._set_busy(False)
             return
+        assert self._computing is not None
+        self._asked[result] = self._computing
         self.runs = [*self.runs, result][-KEPT:]
         self.select(result)
         self._next()

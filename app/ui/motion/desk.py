@@ -70,7 +70,16 @@ class MotionDesk:
         return self._quick.busy or self._thorough.busy
 
     def open(self) -> None:
-        """Somebody looks at the tab: until then nothing is computed."""
+        """Somebody looks at the tab: until then nothing is computed. Who comes later hears the last answer again."""
+        if not self._open:
+            self.look()
+        elif self.refusal:
+            self.refused.emit(self.refusal)
+        elif self.motion is not None:
+            self.planned.emit(self.motion)
+
+    def look(self) -> None:
+        """Somebody wants to know what comes of the settings."""
         if not self._open:
             self._open = True
             self._ask()

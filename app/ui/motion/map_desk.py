@@ -61,6 +61,12 @@ class MapDesk:
         self._ask()
         self.changed.emit(self.settings)
 
+    def tell_again(self) -> None:
+        """For listeners that came later."""
+        if self.on:
+            self.changed.emit(self.settings)
+            self.answered.emit(None)
+
     def _follow_robot(self, robot: Robot) -> None:
         """Another robot begins with its own slice; one of other dimensions keeps it."""
         if robot.name == self.settings.robot:

@@ -5,8 +5,6 @@ from __future__ import annotations
 import asyncio
 import importlib
 
-from app.ui.motion.desk import MotionDesk
-from app.ui.motion.map_desk import MapDesk
 from app.ui.motion.map_view import MapView
 from app.ui.motion.surroundings import MotionSurroundings
 from app.ui.pacing import Paced
@@ -19,10 +17,10 @@ FOLLOW_S = 0.1
 class MapRoom:
     """See the module."""
 
-    def __init__(self, surroundings: MotionSurroundings, desk: MotionDesk) -> None:
+    def __init__(self, surroundings: MotionSurroundings) -> None:
         self._client = surroundings.client
         self._bench = surroundings.bench
-        self.desk = MapDesk(surroundings.session, surroundings.quick())
+        self.desk = surroundings.desks.maps
         self._view = MapView(self._client.scene, self.desk)
         self._results: MapResultsPanel | None = None
         self._front = False
@@ -39,6 +37,7 @@ class MapRoom:
     def add_results(self) -> None:
         """In a tab of the bench."""
         self._results = MapResultsPanel(self._client.gui, self.desk)
+        self.desk.tell_again()
 
     def show(self) -> None:
         """The tab is in front."""

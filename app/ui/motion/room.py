@@ -9,7 +9,6 @@ import viser
 
 from app.ui.compare.room import CompareRoom
 from app.ui.motion.belts_view import BeltsView
-from app.ui.motion.desk import MotionDesk
 from app.ui.motion.maps import MapRoom
 from app.ui.motion.path_view import PathView
 from app.ui.motion.surroundings import MotionSurroundings
@@ -43,14 +42,14 @@ class MotionRoom:
         self._surroundings = surroundings
         self._client = surroundings.client
         self._bench = surroundings.bench
-        self.desk = MotionDesk(surroundings.session, surroundings.quick(), surroundings.slow(None))
+        self.desk = surroundings.desks.motion
         self._path = PathView(self._client.scene, self.desk)
         self._panel = self._bench.add_panel()
         self._bars: list[PlayBar] = []
         self._belts = BeltsView(self._client.scene, self.desk)
         self._annexes: list[tuple[str, viser.IconName, Annex]] = [
-            ("Compare", viser.Icon.SCALE, CompareRoom(surroundings, self.desk)),
-            ("Map", viser.Icon.MAP, MapRoom(surroundings, self.desk)),
+            ("Compare", viser.Icon.SCALE, CompareRoom(surroundings)),
+            ("Map", viser.Icon.MAP, MapRoom(surroundings)),
         ]
         self._front = self._closed = False
         self.desk.playback.playing_changed.connect(lambda _: self._show_handles())
@@ -75,7 +74,6 @@ class MotionRoom:
 
     def close(self) -> None:
         self._closed = True
-        self.desk.close()
         for bar in self._bars:
             bar.close()
         self._belts.close()

@@ -9,6 +9,7 @@ import viser
 
 from app.ui.bench import Bench
 from app.ui.compute import Worker
+from app.ui.desks import Desks
 from app.ui.gizmo import Gizmo
 from app.ui.session import Session
 from app.ui.shape_cache import ShapeCache
@@ -20,6 +21,7 @@ class MotionSurroundings(NamedTuple):
 
     client: viser.ClientHandle
     session: Session
+    desks: Desks
     tab: viser.GuiTabHandle
     """On the right, for settings."""
     bench: Bench
@@ -27,9 +29,5 @@ class MotionSurroundings(NamedTuple):
     stage: Stage
     shapes: ShapeCache
     """Of the robots' parts, for ghosts."""
-    quick: Callable[[], Worker]
-    """Makes a line of quick work."""
     slow: Callable[[Callable[[], None] | None], Worker]
     """Makes a line of slow work; what it is given hears of failures."""
-    tell: Callable[[str], None]
-    """Shows one sentence about a failure for a few seconds."""

@@ -24,6 +24,7 @@ class GeometryPanel:
         self._others: list[viser.GuiDropdownHandle[str] | viser.GuiButtonHandle | viser.GuiHtmlHandle] = []
         self._folder = gui.add_folder("Geometry", expand_by_default=False)
         session.robot_changed.connect(lambda _: self._follow())
+        session.locks_changed.connect(lambda _: self._lock())
         self._build()
 
     def _build(self) -> None:
@@ -41,10 +42,17 @@ class GeometryPanel:
             self._refusal = self._gui.add_html("")
             reset = self._gui.add_button("Reset geometry", icon=viser.Icon.RESTORE)
             self._others += [self._refusal, reset]
+        self._lock()
 
         @reset.on_click
         async def _(_: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
             self._session.reset_geometry()
+
+    def _lock(self) -> None:
+        """In some steps of a lesson the dimensions stay as they are."""
+        for handle in (*self._sliders.values(), *self._others):
+            if not isinstance(handle, viser.GuiHtmlHandle):
+                handle.disabled = "geometry" in self._session.locks
 
     def _add_presets(self) -> None:
         presets = tuple(ROBOTS[self._session.robot_name].presets)

@@ -9,6 +9,7 @@ from app.ui.panels.geometry_panel import GeometryPanel
 from app.ui.panels.pose_panel import PosePanel
 from app.ui.panels.status_panel import StatusPanel
 from app.ui.session import Session
+from app.ui.viser_adapter import show_value
 
 
 class RobotPanel:
@@ -22,6 +23,12 @@ class RobotPanel:
         async def _(event: viser.GuiEvent[viser.GuiDropdownHandle[str]]) -> None:
             session.choose_robot(titles[event.target.value])
 
+        def lock(locks: frozenset[str]) -> None:
+            choice.disabled = "robot" in locks
+
+        session.robot_changed.connect(lambda robot: show_value(choice, ROBOTS[robot.name].title))
+        session.locks_changed.connect(lock)
+        lock(session.locks)
         self._status = StatusPanel(gui, session)
         home = gui.add_button("Home", icon=viser.Icon.HOME, hint="Back to the pose in the middle of its reach")
 

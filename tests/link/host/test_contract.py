@@ -98,6 +98,17 @@ def test_contract_1_the_instructor_takes_the_robot_back_at_once(bench):
     assert "Only an instructor" in bench.refused("take_over", BEN)
 
 
+def test_contract_1_the_instructor_hands_a_moving_robot_over_and_it_halts(bench):
+    bench.home()
+    bench.order("run", ANNA, circle(bench))
+    bench.run(1.0)
+    bench.order("hand_to", CARLA, BEN)
+    assert (bench.status.holder, bench.status.queue) == (BEN, (ANNA,))
+    bench.run(0.2)
+    assert speed_of(bench) == 0.0 and bench.status.activity == "idle"
+    assert "Only an instructor" in bench.refused("hand_to", BEN, ANNA)
+
+
 @pytest.mark.parametrize(
     ("name", "arguments"),
     [

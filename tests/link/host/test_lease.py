@@ -90,3 +90,27 @@ def test_two_pages_of_one_person_are_one():
     lease.request(Person("a", "Anna on her phone"), 1.0)
     assert lease.queue == ()
     assert lease.holds(Person("a", ""))
+
+
+def test_an_instructor_hands_the_robot_to_anybody():
+    lease, (anna, ben, carla, dora) = Lease(), PEOPLE
+    lease.request(anna, 0.0)
+    lease.request(ben, 0.0)
+    lease.hand_to(carla, ben, 1.0)
+    assert (lease.holder, lease.queue) == (ben, (anna,)), "who held it is next"
+    lease.take_over(carla, 2.0)
+    lease.hand_to(carla, dora, 3.0)
+    assert (lease.holder, lease.queue) == (dora, (ben, anna)), "the giver need not wait"
+    lease.hand_to(carla, carla, 4.0)
+    assert lease.holder == carla
+    lease.hand_to(carla, anna, 5.0)
+    lease.expire(5.0 + KEEP_S)
+    assert lease.holder is None, "a page that never gives a sign of life keeps nothing"
+
+
+def test_a_student_hands_the_robot_to_nobody():
+    lease, (anna, ben, *_) = Lease(), PEOPLE
+    lease.request(anna, 0.0)
+    with pytest.raises(LinkError, match="Only an instructor"):
+        lease.hand_to(anna, ben, 1.0)
+    assert (lease.holder, lease.queue) == (anna, ())

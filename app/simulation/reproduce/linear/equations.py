@@ -3,17 +3,36 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from app.robots.linear import LinearGeometry
 
 Point = tuple[float, float, float]
 
 
-def platform(d: tuple[float, float, float], geometry: LinearGeometry, slip: bool = False) -> Point:
-    """Position (m) of carriages at d (m), by three spheres, the lower of both solutions.
+class Reduced(NamedTuple):
+    """Three spheres, boiled down: all points equally far from their centres lie on the line x = s_x z + t_x,
+    y = s_y z + t_y, and those at the right distance have a z^2 + b z + c = 0. Metres."""
 
-    Subtracting sphere 1 from 2 and 3 leaves x = s_x z + t_x, y = s_y z + t_y; put into sphere 1 with centre q this is
-    a z^2 + b z + c = 0 with b = 2 (s_x (t_x - q_x) + s_y (t_y - q_y) - q_z). With `slip`, t_y has a minus there.
+    s_x: float
+    t_x: float
+    s_y: float
+    t_y: float
+    a: float
+    b: float
+    c: float
+
+
+def platform(d: tuple[float, float, float], geometry: LinearGeometry, slip: bool = False) -> Point:
+    """Position (m) of carriages at d (m), by three spheres, the lower of both solutions. For `slip` see `reduced`."""
+    s_x, t_x, s_y, t_y, a, b, c = reduced(d, geometry, slip)
+    z = (-b - math.sqrt(b * b - 4.0 * a * c)) / (2.0 * a)
+    return s_x * z + t_x, s_y * z + t_y, z
+
+
+def reduced(d: tuple[float, float, float], geometry: LinearGeometry, slip: bool = False) -> Reduced:
+    """Subtracting sphere 1 from 2 and 3 leaves the line; put into sphere 1 with centre q it leaves the quadratic with
+    b = 2 (s_x (t_x - q_x) + s_y (t_y - q_y) - q_z). With `slip`, t_y has a minus there.
     """
     spheres = _centres(d, geometry)
     s_x, t_x, s_y, t_y = _line(spheres)
@@ -21,8 +40,7 @@ def platform(d: tuple[float, float, float], geometry: LinearGeometry, slip: bool
     a = s_x * s_x + s_y * s_y + 1.0
     b = 2.0 * (s_x * (t_x - q_x) + s_y * ((-t_y if slip else t_y) - q_y) - q_z)
     c = (t_x - q_x) ** 2 + (t_y - q_y) ** 2 + q_z * q_z - geometry.l**2
-    z = (-b - math.sqrt(b * b - 4.0 * a * c)) / (2.0 * a)
-    return s_x * z + t_x, s_y * z + t_y, z
+    return Reduced(s_x, t_x, s_y, t_y, a, b, c)
 
 
 def _centres(d: tuple[float, float, float], g: LinearGeometry) -> tuple[Point, Point, Point]:

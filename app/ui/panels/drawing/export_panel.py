@@ -43,6 +43,7 @@ class ExportPanel:
                     client.add_notification("Not saved", result.reason, color="red", auto_close_seconds=8)
                 else:
                     send(client, name, result)
+                    desk.note_saved()
 
             if desk.sketch is not None:
                 worker.request(deliver, jobs.export, desk.sketch, suffix, variant)

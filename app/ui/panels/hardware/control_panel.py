@@ -7,10 +7,10 @@ import math
 
 import viser
 
+from app.classroom.names import LONGEST_NAME
 from app.link.lease import KEEP_S
 from app.link.status import LinkStatus
 from app.ui.hardware.desk import HardwareDesk
-from app.ui.hardware.people import LONGEST_NAME
 from app.ui.hardware.verbs import VERBS, place_in_queue
 from app.ui.panels.button_grid import ButtonGrid, Cell
 from app.ui.panels.text import small

@@ -13,6 +13,7 @@ from app.ui.compute import Worker
 from app.ui.downloads import send
 from app.ui.hardware import jobs
 from app.ui.hardware.desk import HardwareDesk
+from app.ui.hardware.twin_desk import TwinDesk
 from app.ui.hardware.verbs import NO_BOARD
 from app.ui.panels.button_grid import ButtonGrid, Cell
 from app.ui.panels.hardware.twin_view import TwinView
@@ -26,9 +27,10 @@ NO_RECORDING = "Record something first."
 class RecordPanel:
     """The tab `Record`."""
 
-    def __init__(self, client: viser.ClientHandle, desk: HardwareDesk, worker: Worker) -> None:
+    def __init__(self, client: viser.ClientHandle, desk: HardwareDesk, twin: TwinDesk, worker: Worker) -> None:
         self._client = client
         self._desk = desk
+        self._twin = twin
         self._worker = worker
         gui = client.gui
         gui.add_html(small(ABOUT))
@@ -42,7 +44,11 @@ class RecordPanel:
         desk.status_changed.connect(lambda _: self._follow())
         desk.beat.connect(self._show_time)
         desk.recorded.connect(lambda _: self._follow())
+        twin.busy_changed.connect(lambda busy: setattr(self._bar, "visible", busy))
+        twin.answered.connect(self._view.show)
         self._follow()
+        if twin.result is not None:
+            self._view.show(twin.result)
 
         @self._upload.on_upload
         async def _(event: viser.GuiEvent[viser.GuiUploadButtonHandle]) -> None:
@@ -61,11 +67,7 @@ class RecordPanel:
         elif recording is not None and key == "save":
             self._ask(lambda data: send(self._client, "recording.csv", data), jobs.recording_csv, recording)
         elif recording is not None and key == "compare":
-            status = desk.status
-            motor = desk.session.control.motor if desk.session.control else None
-            same = desk.session.robot_name == recording.robot
-            arguments = (recording, status.identity, dict(status.settings), motor if same else None)
-            self._ask(self._view.show, jobs.compare_with_twin, *arguments)
+            self._twin.compare()
 
     def _ask(self, then: Callable[[Any], None], job: Callable[..., Any], *arguments: object) -> None:
         def done(result: object) -> None:

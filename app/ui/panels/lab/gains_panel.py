@@ -7,8 +7,8 @@ import html
 import viser
 
 from app.control.tuning.methods import METHODS, TUNER, methods_for
+from app.equations import formulas
 from app.ui import theme
-from app.ui.equations import formulas
 from app.ui.lab.desk import ControlDesk
 from app.ui.lab.jobs import Answer
 from app.ui.lab.settings import BY_HAND, ControlSettings

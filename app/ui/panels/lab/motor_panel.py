@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Callable
 
 import numpy as np
 import viser
@@ -13,28 +12,27 @@ from app.control.identification.excitation import EXCITATIONS
 from app.control.identification.recordings import write_recording
 from app.control.motor import Motor
 from app.ui import theme
-from app.ui.compute import Worker
 from app.ui.downloads import send
-from app.ui.lab.desk import ControlDesk
-from app.ui.lab.motor_jobs import Identified, MotorTest, move_and_identify, read_and_identify, thinned
+from app.ui.lab.motor_desk import MotorDesk, TestSettings
+from app.ui.lab.motor_jobs import Identified, thinned
 from app.ui.panels.lab.metrics_table import shown
+from app.ui.panels.motion.knob import Knob
 from app.ui.panels.text import small
 from app.ui.plots import Axes, Curve, Plot, csv_table
 from app.ui.refusal import Refusal
+from app.ui.viser_adapter import show_value
 
 POINTS = 400
+NOISE = "Standard deviation, deg or mm"
 TITLES = {excitation.title: name for name, excitation in EXCITATIONS.items()}
 
 
 class MotorPanel:
     """Excitation, recording, result."""
 
-    def __init__(self, client: viser.ClientHandle, desk: ControlDesk, worker: Worker) -> None:
+    def __init__(self, client: viser.ClientHandle, desk: MotorDesk) -> None:
         self._client = client
         self._desk = desk
-        self._worker = worker
-        self._seed = 0
-        self._result: Identified | None = None
         gui = client.gui
         self._about = gui.add_html(small("Move the motor, record it, and let the output-error method find its model."))
         self._add_test(gui)
@@ -44,68 +42,78 @@ class MotorPanel:
         self._save = gui.add_button("Save recording as CSV", icon=viser.Icon.DOWNLOAD, color="gray", visible=False)
         self._save_fit = gui.add_button("Save fit as CSV", icon=viser.Icon.DOWNLOAD, color="gray", visible=False)
         self._plots = MotorPlots(gui)
-        self._listen()
+        self._listen_to_test()
+        self._listen_to_result()
+        desk.settings_changed.connect(self._follow)
+        desk.busy_changed.connect(lambda busy: setattr(self._bar, "visible", busy))
+        desk.answered.connect(self._receive)
+        self._follow(desk.settings)
+        if desk.result is not None:
+            self._receive(desk.result)
 
     def _add_test(self, gui: viser.GuiApi) -> None:
-        drive = DRIVES[self._desk.settings.robot]
-        self._excitation = gui.add_dropdown("Signal", tuple(TITLES), initial_value=EXCITATIONS["prbs"].title)
-        self._explanation = gui.add_html(small(html.escape(EXCITATIONS["prbs"].explanation)))
-        self._volts = gui.add_slider("Voltage (V)", 0.5, 48.0, 0.5, drive.supply_v)
-        self._length = gui.add_slider("Duration (s)", 2.0, 120.0, 1.0, 60.0)
-        self._noise = gui.add_slider("Sensor noise", 0.0, 2.0, 0.05, 0.5, hint="Standard deviation, deg or mm")
+        excitation = EXCITATIONS[self._desk.settings.excitation]
+        self._excitation = gui.add_dropdown("Signal", tuple(TITLES), initial_value=excitation.title)
+        self._explanation = gui.add_html(small(html.escape(excitation.explanation)))
+        self._knobs = [
+            Knob(gui, "Voltage (V)", (0.5, 48.0, 0.5), "amplitude_v", 1.0, self._desk.change),
+            Knob(gui, "Duration (s)", (2.0, 120.0, 1.0), "duration_s", 1.0, self._desk.change),
+            Knob(gui, "Sensor noise", (0.0, 2.0, 0.05), "noise", 1.0, self._desk.change, NOISE),
+        ]
         self._record = gui.add_button("Record and identify", icon=viser.Icon.PLAYER_RECORD)
         self._upload = gui.add_upload_button("Read a CSV file", icon=viser.Icon.UPLOAD, mime_type=".csv,.txt,text/csv")
 
-    def _listen(self) -> None:
+    def _listen_to_test(self) -> None:
+        desk = self._desk
+
         @self._excitation.on_update
         async def _(event: viser.GuiEvent[viser.GuiDropdownHandle[str]]) -> None:
-            self._explanation.content = small(html.escape(EXCITATIONS[TITLES[event.target.value]].explanation))
+            desk.change(excitation=TITLES[event.target.value])
 
         @self._record.on_click
         async def _(_: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
-            self._seed += 1
-            name = TITLES[self._excitation.value]
-            test = MotorTest(name, self._volts.value, self._length.value, self._noise.value, self._seed)
-            settings = self._desk.settings
-            self._ask(move_and_identify, settings.robot, settings.hardware, test)
+            desk.record()
 
         @self._upload.on_upload
         async def _(event: viser.GuiEvent[viser.GuiUploadButtonHandle]) -> None:
-            self._ask(read_and_identify, event.target.value.name, event.target.value.content)
+            desk.read(event.target.value.name, event.target.value.content)
+
+    def _listen_to_result(self) -> None:
+        desk = self._desk
 
         @self._use.on_click
         async def _(_: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
-            if self._result is not None:
-                origin = f"Identified by you from {self._result.source}; Reset the lab brings the old one back."
-                self._desk.change(motor=self._result.found.motor, motor_origin=origin)
+            desk.use()
 
         @self._save.on_click
         async def _(_: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
-            if self._result is not None:
-                send(self._client, "recording.csv", write_recording(self._result.recording).encode())
+            if desk.result is not None:
+                send(self._client, "recording.csv", write_recording(desk.result.recording).encode())
 
         @self._save_fit.on_click
         async def _(_: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
-            if self._result is not None:
-                send(self._client, "fit.csv", fit_csv(self._result).encode())
+            if desk.result is not None:
+                send(self._client, "fit.csv", fit_csv(desk.result).encode())
 
-    def failed(self) -> None:
-        """The worker could not do it, and has said so."""
-        self._bar.visible = False
-
-    def _ask(self, job: Callable[..., Identified | Refusal], *arguments: object) -> None:
-        self._bar.visible = True
-        self._worker.request(self._receive, job, *arguments)
+    def _follow(self, test: TestSettings) -> None:
+        excitation = EXCITATIONS[test.excitation]
+        show_value(self._excitation, excitation.title)
+        explanation = small(html.escape(excitation.explanation))
+        if explanation != self._explanation.content:
+            self._explanation.content = explanation
+        for knob in self._knobs:
+            knob.show(getattr(test, knob.name))
+        for element in (self._use, self._save, self._save_fit):
+            if self._desk.result is None and element.visible:  # that was another robot's motor
+                element.visible = False
 
     def _receive(self, result: Identified | Refusal) -> None:
-        self._bar.visible = False
         if isinstance(result, Refusal):
             color = theme.css(theme.WARNING)
             self._answer.content = small(f'<b style="color:{color}">▲ {html.escape(result.reason)}</b>')
             return
-        self._result = result
         self._use.visible = self._save.visible = self._save_fit.visible = True
-        self._answer.content = result_table(result, DRIVES[self._desk.settings.robot].motor)
+        self._answer.content = result_table(result, DRIVES[self._desk.known].motor)
         self._plots.show(result)
 
 

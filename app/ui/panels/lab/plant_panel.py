@@ -10,7 +10,7 @@ import viser
 
 from app.control import Motor
 from app.control.drives import DRIVES
-from app.ui.equations import mathml
+from app.equations import mathml
 from app.ui.lab.desk import ControlDesk
 from app.ui.lab.settings import ControlSettings
 from app.ui.panels.text import small

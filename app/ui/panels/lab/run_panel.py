@@ -33,6 +33,10 @@ class RunPanel:
     def __init__(
         self, client: viser.ClientHandle, desk: ControlDesk, book: RunBook, playback: Playback, worker: Worker
     ) -> None:
+        """
+        Args:
+            playback: has the run that is shown already when this panel hears of it.
+        """
         self._client = client
         self._book = book
         self._worker = worker
@@ -41,15 +45,15 @@ class RunPanel:
         RunSettingsPanel(gui, desk, book)
         with gui.add_folder("Playback"):
             self._playback_panel = PlaybackPanel(gui, playback, self._view)
-        self._playback = playback
         self._plots = RunPlots(gui)
         self._choice = gui.add_dropdown("Run shown", _options(NO_RUN), visible=False)
         self._table = gui.add_html("")
         self._save = gui.add_button("Save this run as CSV", icon=viser.Icon.DOWNLOAD, visible=False)
         self._forget = gui.add_button("Forget all runs", icon=viser.Icon.ERASER, visible=False)
         book.selected.connect(self._show)
-        book.finished.connect(lambda _: playback.play())
         self._listen()
+        if book.run is not None:
+            self._show(book.run)
 
     def close(self) -> None:
         self._playback_panel.close()
@@ -71,7 +75,6 @@ class RunPanel:
             self._book.clear()
 
     def _show(self, run: Run | None) -> None:
-        self._playback.load(run)
         self._playback_panel.load(run)
         self._view.show(run)
         self._plots.show(run)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.ui.recent import Recent
+from app.recent import Recent
 
 
 def test_the_longest_unused_is_forgotten_first():

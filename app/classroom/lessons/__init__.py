@@ -1,0 +1,1 @@
+"""Lesson files, and the checks in them."""

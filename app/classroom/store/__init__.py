@@ -1,0 +1,1 @@
+"""The one file in which a classroom is kept (SQLite)."""

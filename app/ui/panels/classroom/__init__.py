@@ -1,0 +1,1 @@
+"""Panels of the instructor's page."""

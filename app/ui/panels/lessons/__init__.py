@@ -1,0 +1,1 @@
+"""The lesson panel: what a student reads, answers and presses."""
