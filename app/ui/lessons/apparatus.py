@@ -123,6 +123,15 @@ class Apparatus:
         press.begin()
         self._pending.append(press)
 
+    def press_again(self) -> None:
+        """Begin anew what has not ended: it was interrupted."""
+        for press in self._pending:
+            press.begin()
+
+    def give_up(self) -> None:
+        """Wait for nothing any more."""
+        self._pending.clear()
+
     def note_export(self) -> None:
         """The student has saved the report."""
         self.exported = True

@@ -47,6 +47,7 @@ class Stage:
         staff = Staff(Pools(pool, pool), self.told.append)
         self.desks = Desks(session, staff, self._workshop, "player", lambda sentence, _: self.told.append(sentence))
         self.apparatus = Apparatus(session, self.desks)
+        self._was_held = False
 
     @property
     def has_robot(self) -> bool:
@@ -66,9 +67,21 @@ class Stage:
                 self.desks.stand_still()
                 return
             if poll % ALIVE_EVERY == 0 and self.desks.has_hardware:
-                self.desks.hardware.alive()
+                self._look_after_robot()
             await asyncio.sleep(POLL_S)
+        self.apparatus.give_up()
         raise UserMistake(f"What was begun does not end. {' '.join(self.told)}".strip())
+
+    def _look_after_robot(self) -> None:
+        """Signs of life; and on a busy computer an emulated board may hold, as it should: it goes on then."""
+        self.desks.hardware.alive()
+        state = self.apparatus.value("link.state")
+        if state == "held" and self.apparatus.waits:
+            self._was_held = True
+            self.desks.hardware.do("resume")
+        elif self._was_held and state == "ready" and self.apparatus.value("link.activity") == "idle":
+            self._was_held = False
+            self.apparatus.press_again()
 
     def close(self) -> None:
         self.desks.close()

@@ -280,3 +280,17 @@ def test_an_apparatus_says_when_something_may_have_changed():
         assert heard and lab.value("report.exported") is True
 
     on_stage(scene)
+
+
+def test_what_the_link_refuses_has_ended_and_what_does_not_end_is_given_up():
+    async def scene(stage: Stage) -> None:
+        lab = stage.apparatus
+        lab.press("enable")  # there is no board
+        await stage.settle()
+        assert not lab.waits and stage.told
+        lab.press("disconnect")
+        assert lab.waits, "the link has not answered yet"
+        lab.give_up()
+        assert not lab.waits
+
+    on_stage(scene)

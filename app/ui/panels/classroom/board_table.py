@@ -14,6 +14,7 @@ STYLE = f"""<style>
   line-height: 1.35; font-variant-numeric: tabular-nums; }}
 .deltalab-board th {{ text-align: left; font-weight: 600; opacity: 0.75; padding: 2px 6px 2px 0; }}
 .deltalab-board td {{ padding: 2px 6px 2px 0; border-top: 1px solid var(--mantine-color-default-border); }}
+.deltalab-board td:not(:first-child) {{ white-space: nowrap; }}
 .deltalab-board button {{ font: inherit; color: inherit; background: none; border: none; padding: 4px 0;
   cursor: pointer; text-align: left; text-decoration: underline dotted; overflow-wrap: anywhere; min-height: 28px; }}
 .deltalab-board tr.chosen td {{ background: rgba(28,111,196,.16); }}
@@ -28,7 +29,7 @@ STYLE = f"""<style>
 </style>"""
 """To be put on the page once."""
 
-HEAD = ("Student", "Step", "Checks", "On it", "Needs")
+HEAD = ("Student", "Step", "Checks", "For", "Needs")
 
 
 def board_table(rows: Sequence[BoardRow], chosen: str, wire: str) -> str:
@@ -82,7 +83,7 @@ def _row(row: BoardRow, chosen: bool, wire: str) -> str:
 def _needs(row: BoardRow) -> str:
     words = []
     if row.hand_s is not None:
-        words.append(f'<b class="hand">✋ hand, {duration(row.hand_s)}</b>')
+        words.append(f'<b class="hand">◆ hand, {duration(row.hand_s)}</b>')
     if row.stuck_s is not None:
         words.append(f'<b class="stuck">▲ stuck, {duration(row.stuck_s)}</b>')
     if row.holds_robot:
