@@ -23,7 +23,6 @@ class InstructorRoom:
     """The panel `Class`, looked at once a second: what has not changed is not sent."""
 
     def __init__(self, client: viser.ClientHandle, desk: InstructorDesk, bench: Bench) -> None:
-        self._client = client
         client.gui.add_html(STYLE)
         panel = bench.add_panel(lasting=True)
         with panel.add_tab("Class"):
@@ -37,6 +36,7 @@ class InstructorRoom:
             self._invite = InvitePanel(client, desk)
         bench.show(panel)
         client.flush()
+        self._board.look()
         self._looking = asyncio.get_running_loop().create_task(self._look())
 
     def close(self) -> None:

@@ -14,7 +14,7 @@ STYLE = f"""<style>
   line-height: 1.35; font-variant-numeric: tabular-nums; }}
 .deltalab-board th {{ text-align: left; font-weight: 600; opacity: 0.75; padding: 2px 6px 2px 0; }}
 .deltalab-board td {{ padding: 2px 6px 2px 0; border-top: 1px solid var(--mantine-color-default-border); }}
-.deltalab-board td:not(:first-child) {{ white-space: nowrap; }}
+.deltalab-board td:not(:first-child, :last-child) {{ white-space: nowrap; }}
 .deltalab-board button {{ font: inherit; color: inherit; background: none; border: none; padding: 4px 0;
   cursor: pointer; text-align: left; text-decoration: underline dotted; overflow-wrap: anywhere; min-height: 28px; }}
 .deltalab-board tr.chosen td {{ background: rgba(28,111,196,.16); }}
@@ -29,7 +29,7 @@ STYLE = f"""<style>
 </style>"""
 """To be put on the page once."""
 
-HEAD = ("Student", "Step", "Checks", "For", "Needs")
+HEAD = ("Student", "Step", "Done", "Min", "Needs")
 
 
 def board_table(rows: Sequence[BoardRow], chosen: str, wire: str) -> str:
@@ -61,10 +61,13 @@ def short_key(lesson: str) -> str:
     return lesson.partition("-")[0] or lesson
 
 
-def duration(seconds: float) -> str:
-    """In whole minutes, so that the board changes seldom."""
-    minutes = int(seconds // 60)
-    return "< 1 min" if minutes < 1 else f"{minutes} min" if minutes < 100 else f"{minutes // 60} h"
+def minutes(seconds: float) -> str:
+    """Whole ones, so that the board changes seldom."""
+    return "< 1" if seconds < 60 else f"{int(seconds // 60)}"
+
+
+def _for(seconds: float) -> str:
+    return "" if seconds < 60 else f" {minutes(seconds)} min"
 
 
 def _row(row: BoardRow, chosen: bool, wire: str) -> str:
@@ -72,8 +75,8 @@ def _row(row: BoardRow, chosen: bool, wire: str) -> str:
     pick = f'type="button" data-press="{html.escape(row.member_id)}" data-wire="{html.escape(wire)}"'
     name = f'<button {pick} aria-pressed="{str(chosen).lower()}">{html.escape(row.name)}</button>'
     if row.lesson:
-        cells = [f"{html.escape(short_key(row.lesson))} · {row.step}", f"{row.checks} of {row.checks_of}"]
-        cells.append(duration(row.seconds))
+        cells = [f"{html.escape(short_key(row.lesson))} · {row.step}", f"{row.checks}/{row.checks_of}"]
+        cells.append(minutes(row.seconds))
     else:
         cells = ["exploring", "", ""]
     body = "".join(f"<td>{cell}</td>" for cell in (name, *cells, _needs(row)))
@@ -83,9 +86,9 @@ def _row(row: BoardRow, chosen: bool, wire: str) -> str:
 def _needs(row: BoardRow) -> str:
     words = []
     if row.hand_s is not None:
-        words.append(f'<b class="hand">◆ hand, {duration(row.hand_s)}</b>')
+        words.append(f'<b class="hand">◆ hand{_for(row.hand_s)}</b>')
     if row.stuck_s is not None:
-        words.append(f'<b class="stuck">▲ stuck, {duration(row.stuck_s)}</b>')
+        words.append(f'<b class="stuck">▲ stuck{_for(row.stuck_s)}</b>')
     if row.holds_robot:
         words.append("has the robot")
     if not row.online:
