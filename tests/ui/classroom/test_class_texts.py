@@ -18,7 +18,7 @@ from app.ui.classroom.crowd_picture import KINDS, crowd_picture
 from app.ui.classroom.invitation import ONLY_HERE, Invitation
 from app.ui.classroom.lines import POINTS, Line, thinned
 from app.ui.panels.classroom.board_table import bars, board_table, minutes, summary
-from app.ui.panels.classroom.pace_panel import in_words
+from app.ui.panels.classroom.pace_panel import in_words, titled
 
 EVIL = "<script>alert('x')</script>\"&"
 
@@ -86,6 +86,10 @@ def test_times_are_in_whole_minutes(seconds: float, words: str):
 )
 def test_the_pace_is_told_in_words(pace: Pace, words: str):
     assert words in in_words(pace)
+
+
+def test_a_lesson_is_chosen_by_its_number_and_topic():
+    assert titled("02-inverse-kinematics") == "02 · Inverse kinematics"
 
 
 def test_what_is_said_to_a_page_is_data_whatever_it_is():

@@ -23,7 +23,7 @@ class PacePanel:
         gui = client.gui
         with gui.add_folder("Pace"):
             self._said = gui.add_html("")
-            self._lesson = gui.add_dropdown("Up to lesson", self._lessons())
+            self._lesson = gui.add_dropdown("Up to lesson", tuple(self._lessons()))
             self._step = gui.add_dropdown("Up to step", self._steps())
             self._grid = ButtonGrid(client, "Pace", self._do, desk.tell, columns=2)
             self._text = gui.add_text("Said in the pause", "")
@@ -58,15 +58,21 @@ class PacePanel:
 
     def _follow_course(self) -> None:
         """Lessons are read, and written, while this is open."""
-        for dropdown, options in ((self._lesson, self._lessons()), (self._step, self._steps())):
+        for dropdown, options in ((self._lesson, tuple(self._lessons())), (self._step, self._steps())):
             if dropdown.options != options:
                 dropdown.options = options
 
-    def _lessons(self) -> tuple[str, ...]:
-        return tuple(self._desk.classroom.outline) or (NO_LESSONS,)
+    def _lessons(self) -> dict[str, str]:
+        """What is read -> key."""
+        return {titled(key): key for key in self._desk.classroom.outline} or {NO_LESSONS: ""}
+
+    @property
+    def _chosen(self) -> str:
+        """Key of a lesson; empty where there is none."""
+        return self._lessons().get(self._lesson.value, "")
 
     def _steps(self) -> tuple[str, ...]:
-        steps = self._desk.classroom.outline.get(self._lesson.value, ())
+        steps = self._desk.classroom.outline.get(self._chosen, ())
         return tuple(f"{number}. {step.title}" for number, step in enumerate(steps, 1)) or (NO_LESSONS,)
 
     def _do(self, key: str) -> None:
@@ -79,7 +85,13 @@ class PacePanel:
             desk.do(lambda: classroom.set_pace(by, "free"))
         elif key in ("up_to", "all_at") and self._step.value != NO_LESSONS:
             step = int(self._step.value.partition(".")[0])
-            desk.do(lambda: classroom.set_pace(by, key, self._lesson.value, step))
+            desk.do(lambda: classroom.set_pace(by, key, self._chosen, step))
+
+
+def titled(key: str) -> str:
+    """A lesson's key as people read it."""
+    number, _, topic = key.partition("-")
+    return f"{number} · {topic.replace('-', ' ').capitalize()}" if topic else key
 
 
 def in_words(pace: Pace) -> str:
