@@ -49,11 +49,10 @@ if TYPE_CHECKING:
 
 NARROW_TABS = """
 const style = document.createElement("style");
-style.textContent = '[role="tab"] { padding: 0.7em 0.45em !important; }'
-  + '[role="tab"] > :has(svg) { display: none !important; }';
+style.textContent = '[role="tab"] { padding: 0.7em 0.45em !important; }';
 document.head.append(style);
 """
-"""Six tabs in one row have no room for pictures."""
+"""Six tabs stand in one row. None has a picture: viser reads each from an archive, which takes 30 ms."""
 
 
 class Room:
@@ -134,13 +133,13 @@ class Room:
         gui.main_panel.dock_right()
         gui.main_panel.set_width(SETTINGS_PX)
         tabs, group = self.tabs, gui.add_tab_group()
-        with group.add_tab("Robot", viser.Icon.ROBOT):
+        with group.add_tab("Robot"):
             robot_panel = RobotPanel(gui, session)
-        control_tab = group.add_tab("Control", viser.Icon.ADJUSTMENTS)
-        motion_tab = group.add_tab("Motion", viser.Icon.ROUTE)
-        draw_tab = group.add_tab("Draw", viser.Icon.PENCIL)
-        hardware_tab = group.add_tab("Hardware", viser.Icon.PLUG)
-        with group.add_tab("View", viser.Icon.EYE):
+        control_tab = group.add_tab("Control")
+        motion_tab = group.add_tab("Motion")
+        draw_tab = group.add_tab("Draw")
+        hardware_tab = group.add_tab("Hardware")
+        with group.add_tab("View"):
             ViewPanel(gui, session, stage, overlay)
         bench = Bench(client, width)
         desks, quick, slow = self.desks, self._staff.quick, self._staff.slow

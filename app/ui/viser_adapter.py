@@ -5,13 +5,14 @@ tests/ui/test_viser_adapter.py fails where another version behaves differently.
 
 viser has no limits and no checks of its own. Its worker is one long function with everything inside; it runs here
 as it is, but under the names of its own it sees our way to serve, our consumer of messages and our message
-buffers (`_rebound`). Nothing is patched in viser itself.
+buffers (`_rebound`). In viser itself one thing is patched: it remembers types (`_remember_type_hints`).
 """
 
 from __future__ import annotations
 
 import asyncio
-import threading
+import functools
+import typing
 from collections.abc import AsyncGenerator, AsyncIterator, Callable, Iterable, Iterator
 from contextlib import AbstractAsyncContextManager, asynccontextmanager, contextmanager
 from functools import partial
@@ -26,6 +27,7 @@ import viser
 import websockets.datastructures
 import websockets.exceptions
 from viser import _messages, infra
+from viser._assignable_props_api import AssignablePropsBase
 from viser._gui_handles import _GuiInputHandle
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from websockets.asyncio.server import Server, ServerConnection
@@ -36,6 +38,7 @@ from app.ui.admission import Admission
 from app.ui.guard import MIB, Guard, browser_id_in, new_browser_id
 from app.ui.listener import PortTaken as PortTaken
 from app.ui.listener import cookies, listen, serve_guarded
+from app.ui.near_loop import NearLoop
 from app.ui.uploads import UploadLedger
 
 Value = TypeVar("Value")
@@ -315,7 +318,7 @@ class _ClientBuffer(AsyncMessageBuffer):
     """
 
     def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
-        near: Any = _NearLoop(loop)
+        near: Any = NearLoop(loop)
         super().__init__(near, persistent_messages=False)
 
     def push(self, message: infra.Message) -> None:
@@ -347,26 +350,22 @@ class _ClientBuffer(AsyncMessageBuffer):
         return [message for message in window if message and message.excluded_self_client != client_id]
 
 
-class _NearLoop:
-    """The event loop as a message buffer sees it: on the loop's own thread, waking it is a plain call.
-
-    viser wakes it through a pipe for every message, which costs two system calls.
-    """
-
-    def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
-        self._loop = loop
-        self._thread = threading.get_ident()
-
-    def call_soon_threadsafe(self, wake: Callable[[], None]) -> None:
-        if threading.get_ident() == self._thread:
-            wake()
-        else:
-            self._loop.call_soon_threadsafe(wake)
-
-
 def _message_buffer(loop: asyncio.AbstractEventLoop, persistent_messages: bool) -> AsyncMessageBuffer:
     """In place of viser's; the one for everybody stays as it is."""
     return AsyncMessageBuffer(loop, persistent_messages) if persistent_messages else _ClientBuffer(loop)
+
+
+@functools.cache
+def _type_hints(kind: type) -> dict[str, Any]:
+    return typing.get_type_hints(kind)
+
+
+def _remember_type_hints() -> None:
+    """viser looks the types of a handle's properties up anew for each handle, which costs about a millisecond."""
+    AssignablePropsBase._prop_hints = property(lambda handle: _type_hints(type(handle._impl.props)))  # type: ignore
+
+
+_remember_type_hints()
 
 
 def _guarded(server: viser.ViserServer) -> _GuardedServer:

@@ -9,6 +9,7 @@ robot. The server is a process of its own; the load of this one and of others st
 from __future__ import annotations
 
 import asyncio
+import random
 import tempfile
 import time
 from collections.abc import Sequence
@@ -27,9 +28,10 @@ from tests.support.server import RunningServer, running_deltalab
 
 RADIUS_M = 0.06
 RUSH_S = 10.0
-LESSON = "06"
+LESSON, TURN_TO = "06", "03 · Forward kinematics"
 WARM_UP_S = 8.0
 BROWSER_HZ = 20.0
+BOUT_S = 2.0
 
 
 @dataclass(frozen=True)
@@ -60,8 +62,8 @@ class Worker:
         await self.page.set("Lesson", f"{self._said} {what} {value}")
 
     async def learn(self, end: float) -> None:
-        """Answer, ask for the checks, look at a hint, and go on where it is open, until `end` (perf_counter)."""
-        await self.say("open", LESSON)
+        """Answer, ask for the checks, and go on where it is open, until `end` (perf_counter)."""
+        await asyncio.sleep(1.5 * random.random())
         for number in range(10_000):
             for what, value in (("predict", "1"), ("check", ""), ("explain", str(number % 3 + 1)), ("next", "")):
                 if time.perf_counter() > end:
@@ -69,11 +71,17 @@ class Worker:
                 await self.say(what, value)
                 await asyncio.sleep(1.5)
 
+    async def settle_in(self, toils: bool = False, compares: bool = False) -> None:
+        """Open the lesson, and the lab in which to toil."""
+        await self.say("open", LESSON)
+        if toils:
+            client, button = self.page.client, heavy_button(compares)
+            await client.set_value("Motion opened" if compares else "Control opened", True)
+            await client.wait_for(lambda: client.has(button), button, 60.0)
+
     async def toil(self, end: float, compares: bool) -> None:
         """Heavy jobs, one after the other."""
-        client, button = self.page.client, "Compare them" if compares else "Run on the robot"
-        await client.set_value("Motion opened" if compares else "Control opened", True)
-        await client.wait_for(lambda: client.has(button), button, 60.0)
+        client, button = self.page.client, heavy_button(compares)
         while time.perf_counter() < end:
             await client.set_value(button, True)
             await asyncio.sleep(2.0)
@@ -82,6 +90,18 @@ class Worker:
         centre, count = reachable_home("par4", RADIUS_M), round(seconds * BROWSER_HZ)
         path = islice(circle(centre, RADIUS_M, LAPS_PER_SECOND / BROWSER_HZ, phase), count)
         await self.drags.drag(path, BROWSER_HZ, time.perf_counter() + phase / BROWSER_HZ)
+
+    async def work(self, seconds: float, phase: float) -> None:
+        """Drag for two seconds, then read for two, and so on."""
+        end = time.perf_counter() + seconds
+        await asyncio.sleep(2.0 * BOUT_S * phase)
+        while time.perf_counter() < end:
+            await self.drag(BOUT_S, phase)
+            await asyncio.sleep(BOUT_S)
+
+
+def heavy_button(compares: bool) -> str:
+    return "Compare them" if compares else "Run on the robot"
 
 
 async def rush(server: RunningServer, code: str, students: int) -> list[Row]:
@@ -118,9 +138,10 @@ async def warm_up(url: str, code: str) -> None:
         await first.say("hello")
         await asyncio.sleep(3.0)
         now = time.perf_counter()
-        await first.toil(now, compares=False)
-        await first.toil(now, compares=True)
-        await first.learn(now + 4.0)
+        for compares in (False, True):
+            await first.settle_in(True, compares)
+            await first.toil(now + 2.0, compares)
+        await first.learn(now + 8.0)
 
 
 async def lessons(server: RunningServer, code: str, options: Options) -> list[Row]:
@@ -129,17 +150,42 @@ async def lessons(server: RunningServer, code: str, options: Options) -> list[Ro
     async with AsyncExitStack() as stack:
         chief = await stack.enter_async_context(class_client(server.url))
         await chief.prove()
-        students = await assemble(stack, server.url, code, options.students)
-        meter, end = Meter(server.pid), time.perf_counter() + options.seconds
-        async with asyncio.TaskGroup() as work:
-            for number, student in enumerate(students):
-                work.create_task(student.learn(end))
-                work.create_task(student.drag(options.seconds, number / len(students)))
-                if number < options.heavy:
-                    work.create_task(student.toil(end, compares=number % 2 == 1))
-        stage = f"{options.students} at lessons, {options.heavy} with heavy jobs"
-        rows = drags(stage, [student.drags for student in students], 33.0, loads(meter.read()))
-        return rows + await spotlight(server, chief, students, options)
+        students = await assemble(stack, server.url, code, options)
+        rows: list[Row] = []
+        for always in (False, True):
+            rows += await at_work(server, students, options, always)
+        rows += await spotlight(server, chief, students, options)
+        return rows + await all_turn(server, chief, len(students))
+
+
+async def at_work(server: RunningServer, students: Sequence[Worker], options: Options, always: bool) -> list[Row]:
+    """All learn and drag, at times or without a pause, and some have heavy jobs."""
+    meter, end = Meter(server.pid), time.perf_counter() + options.seconds
+    async with asyncio.TaskGroup() as work:
+        for number, student in enumerate(students):
+            student.drags.latencies.clear()
+            drag = student.drag if always else student.work
+            work.create_task(student.learn(end))
+            work.create_task(drag(options.seconds, number / len(students)))
+            if number < options.heavy:
+                work.create_task(student.toil(end, compares=number % 2 == 1))
+    how = "drag without a pause" if always else "drag and read"
+    stage = f"{len(students)} at lessons {how}, {options.heavy} with heavy jobs"
+    return drags(stage, [student.drags for student in students], 33.0, loads(meter.read()))
+
+
+async def all_turn(server: RunningServer, chief: ClassClient, students: int) -> list[Row]:
+    """The instructor drags, and meanwhile turns everybody's page to the same step: with another robot on it."""
+    one = Worker(chief)
+    meter = Meter(server.pid)
+    dragging = asyncio.create_task(one.drag(6.0, 0.3))
+    await asyncio.sleep(1.0)
+    await chief.set("Up to lesson", TURN_TO)
+    await asyncio.sleep(0.3)
+    await chief.press("All to here")
+    await dragging
+    worst, stage = 1e3 * max(one.drags.latencies), f"all {students} pages turn to a step at once"
+    return [Row(stage, "worst drag, ms", worst, note=loads(meter.read()))]
 
 
 async def spotlight(
@@ -163,14 +209,16 @@ async def spotlight(
     return rows
 
 
-async def assemble(stack: AsyncExitStack, url: str, code: str, count: int) -> list[Worker]:
-    """So many members, each with the list of lessons."""
+async def assemble(stack: AsyncExitStack, url: str, code: str, options: Options) -> list[Worker]:
+    """All members, each with the lesson open, and some with a lab."""
     workers = []
-    for number in range(count):
+    for number in range(options.students):
         page = await stack.enter_async_context(class_client(url))
         await page.join(f"Student {number}", code)
         workers.append(Worker(page))
         await workers[-1].say("hello")
+        await workers[-1].settle_in(number < options.heavy, number % 2 == 1)
+        await asyncio.sleep(0.3)
     await asyncio.sleep(3.0)
     return workers
 

@@ -7,6 +7,7 @@ import dataclasses
 import logging
 import socket
 import threading
+import typing
 from collections.abc import Iterator
 from importlib.metadata import version
 
@@ -196,5 +197,19 @@ def test_a_gizmo_can_be_corrected_while_it_is_dragged(lab: SmallLab, silenced: b
             await round_trip(client, (0.9, 0.0, 0.0))
             await round_trip(client, (0.8, 0.0, 0.0))
             assert (client.positions.get(GIZMO) == (0.5, 0.0, 0.0)) is heard_back
+
+    run_async(scene())
+
+
+def test_types_of_properties_are_looked_up_once(lab: SmallLab) -> None:
+    async def scene() -> None:
+        async with lab.visit() as client:
+            gui = lab.client_of(client).gui
+            one, two = gui.add_slider("One", 0.0, 1.0, 0.1, 0.5), gui.add_slider("Two", 0.0, 1.0, 0.1, 0.5)
+            assert one._prop_hints is two._prop_hints
+            assert one._prop_hints == typing.get_type_hints(_messages.GuiSliderProps)
+            await client.wait_for(lambda: client.has("One"), "slider")
+            one.disabled = True
+            await client.wait_for(lambda: client.inputs[client.uuid_of("One")]["props"]["disabled"], "disabled slider")
 
     run_async(scene())

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import asyncio
 
-import viser
-
 from app.ui.drawing.scene import DrawingScene
 from app.ui.drawing.surroundings import Surroundings
 from app.ui.panels.drawing.compare_panel import ComparePanel
@@ -75,7 +73,7 @@ class DrawingRoom:
 
     def _add_drawing(self) -> None:
         client, desk = self._client, self.desk
-        with self._panel.add_tab("Drawing", viser.Icon.PENCIL):
+        with self._panel.add_tab("Drawing"):
             PreviewPanel(client.gui, desk)
             if not self._bench.on_a_phone:
                 self._add_playing()
@@ -92,6 +90,6 @@ class DrawingRoom:
         self._scene.show_ink(share * self._player.duration_s)
 
     def _add_comparisons(self) -> None:
-        with self._panel.add_tab("Compare", viser.Icon.SCALE):
+        with self._panel.add_tab("Compare"):
             series = Series(self._slow(lambda: series.failed()))
             ComparePanel(self._client, self.desk, series, self._quick())

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import asyncio
 
-import viser
-
 from app.ui.hardware.offers import Shelf
 from app.ui.hardware.surroundings import HardwareSurroundings
 from app.ui.panels.button_grid import STYLE
@@ -80,18 +78,18 @@ class HardwareRoom:
 
     def _add_reports(self) -> None:
         client, desk = self._around.client, self.desk
-        with self._panel.add_tab("Live", viser.Icon.ACTIVITY):
+        with self._panel.add_tab("Live"):
             self._live = LivePanel(client, desk)
             FaultsPanel(client, desk)
             self._health = HealthPanel(client, desk)
 
     def _add_experiments(self) -> None:
         client, desk, around = self._around.client, self.desk, self._around
-        with self._panel.add_tab("Record", viser.Icon.PLAYER_RECORD):
+        with self._panel.add_tab("Record"):
             record = RecordPanel(client, desk, around.desks.twin, around.slow(lambda: record.failed()))
-        with self._panel.add_tab("Drive", viser.Icon.ENGINE):
+        with self._panel.add_tab("Drive"):
             drive = DrivePanel(client, desk, around.slow(lambda: drive.failed()), around.desks.use_motor)
-        with self._panel.add_tab("Calibrate", viser.Icon.RULER_MEASURE):
+        with self._panel.add_tab("Calibrate"):
             calibration = CalibrationPanel(client, desk, around.slow(lambda: calibration.failed()))
 
     def _see(self, visible: bool) -> None:

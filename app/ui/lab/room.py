@@ -100,15 +100,15 @@ class ControlRoom:
         self._access.when_needed(board.furnish)
 
     def _add_plots(self, panel: viser.PanelHandle, desk: ControlDesk) -> None:
-        with panel.add_tab("Step", viser.Icon.CHART_LINE):
+        with panel.add_tab("Step"):
             StepPlots(self._client, desk)
-        with panel.add_tab("Frequency", viser.Icon.WAVE_SINE):
+        with panel.add_tab("Frequency"):
             FrequencyPlots(self._client, desk)
 
     def _add_runs(self, panel: viser.PanelHandle, desk: ControlDesk, book: RunBook) -> None:
-        with panel.add_tab("Run", viser.Icon.PLAYER_PLAY):
+        with panel.add_tab("Run"):
             self._runs = RunPanel(self._client, desk, book, self._desks.run_playback, self._slow(None))
 
     def _add_motor(self, panel: viser.PanelHandle) -> None:
-        with panel.add_tab("Motor", viser.Icon.ENGINE):
+        with panel.add_tab("Motor"):
             MotorPanel(self._client, self._desks.motor)

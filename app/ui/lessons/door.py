@@ -63,7 +63,7 @@ class LessonDoor:
         if width.isascii() and width.isdigit():
             self.bench.learn_width(int(width))
         dock = LessonDock(self.client, self.bench)
-        tab = dock.panel.add_tab(LABEL, viser.Icon.BOOK)
+        tab = dock.panel.add_tab(LABEL)
         self.client.flush()
         await self.library.opened()
         from app.ui.lessons.room import LessonRoom  # needs the reader of lessons

@@ -5,8 +5,6 @@ from __future__ import annotations
 import asyncio
 from typing import Protocol
 
-import viser
-
 from app.ui.compare.room import CompareRoom
 from app.ui.motion.belts_view import BeltsView
 from app.ui.motion.maps import MapRoom
@@ -47,9 +45,9 @@ class MotionRoom:
         self._panel = self._bench.add_panel()
         self._bars: list[PlayBar] = []
         self._belts = BeltsView(self._client.scene, self.desk)
-        self._annexes: list[tuple[str, viser.IconName, Annex]] = [
-            ("Compare", viser.Icon.SCALE, CompareRoom(surroundings)),
-            ("Map", viser.Icon.MAP, MapRoom(surroundings)),
+        self._annexes: list[tuple[str, Annex]] = [
+            ("Compare", CompareRoom(surroundings)),
+            ("Map", MapRoom(surroundings)),
         ]
         self._front = self._closed = False
         self.desk.playback.playing_changed.connect(lambda _: self._show_handles())
@@ -77,7 +75,7 @@ class MotionRoom:
         for bar in self._bars:
             bar.close()
         self._belts.close()
-        for _, _, annex in self._annexes:
+        for _, annex in self._annexes:
             annex.close()
 
     def _come_to_front(self, front: bool) -> None:
@@ -87,7 +85,7 @@ class MotionRoom:
         if not front:
             self.desk.playback.pause()
         self._front = front
-        for _, _, annex in self._annexes:
+        for _, annex in self._annexes:
             annex.show() if front else annex.hide()
 
     def _show_handles(self) -> None:
@@ -105,7 +103,7 @@ class MotionRoom:
 
     def _add_plan(self) -> None:
         gui, desk = self._client.gui, self.desk
-        with self._panel.add_tab("Plan", viser.Icon.ROUTE):
+        with self._panel.add_tab("Plan"):
             if not self._bench.on_a_phone:
                 self._add_playing()
             PeaksTable(gui, desk)
@@ -113,10 +111,10 @@ class MotionRoom:
             offer_csv(self._client, desk, self._surroundings.slow(None))
 
     def _add_annexes(self) -> None:
-        for label, icon, annex in self._annexes:
+        for label, annex in self._annexes:
             with self._surroundings.tab:
                 annex.add_settings()
-            with self._panel.add_tab(label, icon):
+            with self._panel.add_tab(label):
                 annex.add_results()
 
     def _add_playing(self) -> None:
