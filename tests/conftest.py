@@ -24,7 +24,8 @@ _user_data = tempfile.TemporaryDirectory(prefix="deltalab-test-")
 os.environ["XDG_DATA_HOME"] = _user_data.name  # nobody's own progress is touched
 
 # Speed lives in the benchmarks. CI tries the same examples every time; new ones are found at the desk.
-settings.register_profile("unhurried", deadline=None, derandomize=os.environ.get("CI") == "true")
+IN_CI = os.environ.get("CI") == "true"
+settings.register_profile("unhurried", deadline=None, derandomize=IN_CI, max_examples=50 if IN_CI else 100)
 settings.load_profile("unhurried")
 expect.set_options(timeout=20_000)  # a page may have little of the processor
 
@@ -111,7 +112,7 @@ def browser() -> Browser:
     """Chromium; a machine without it skips the test, in CI that is a failure."""
     if not CHROMIUM.exists():
         reason = f"needs Chromium at {CHROMIUM}"
-        if os.environ.get("CI") == "true":
+        if IN_CI:
             pytest.fail(reason)
         pytest.skip(reason)
     return PAGE_FILES.browser

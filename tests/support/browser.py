@@ -30,7 +30,7 @@ FLAGS = [
 ]
 SKETCHY = ("--webgl-antialiasing-mode=none",)
 """Flags for tests that read poses rather than pixels: their frames cost less."""
-SHARPNESS = 0.5
+SHARPNESS = 0.3
 """Pixels of the scene for a pixel of the page: without a graphics processor, all of them cost half a second a frame."""
 READY_TIMEOUT = 60.0
 SETTLE = 0.5
@@ -44,13 +44,13 @@ SLOW_SCREEN = """{
   const request = window.requestAnimationFrame.bind(window), cancel = window.cancelAnimationFrame.bind(window);
   const turn = new WeakMap();
   window.requestAnimationFrame = (draw) => {
-    const frame = (time) => { turn.set(draw, performance.now() + 200); draw(time); };
+    const frame = (time) => { turn.set(draw, performance.now() + 250); draw(time); };
     const wait = window.deltalabInHand ? 0 : (turn.get(draw) ?? 0) - performance.now();
     return wait > 0 ? -setTimeout(() => frame(performance.now()), wait) : request(frame);
   };
   window.cancelAnimationFrame = (id) => id < 0 ? clearTimeout(-id) : cancel(id);
 }"""
-"""Script of a page that paints its scene five times a second, not as often as the processor can, and leaves time to
+"""Script of a page that paints its scene four times a second, not as often as the processor can, and leaves time to
 others. Only what asks again and again has to wait, and nothing while a gizmo is in hand."""
 
 _READY = """(nodes) => {

@@ -116,7 +116,7 @@ def test_sixty_visits_leave_nothing_behind(server: RunningServer):
                 await client.drag(GIZMO, (0.01, -0.03, -0.31))
 
     process = psutil.Process(server.pid)
-    run_async(visits(60))  # until then the memory of an even load grows
+    run_async(visits(180))  # until then the memory of an even load grows
     memory, threads = process.memory_info().rss, process.num_threads()
     run_async(visits(60))
     run_async(asyncio.sleep(0.5))
