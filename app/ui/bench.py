@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import viser
 
+from app.signal import Signal
 from app.ui.picture_width import PictureWidth
-from app.ui.session import Signal
 from app.ui.stage import PHONE_WIDTH_PX
 
 WIDTH = 420

@@ -81,7 +81,7 @@ class Desks:
     @property
     def run(self) -> Run | None:
         """The run that is shown; looking makes no desk."""
-        return self.runs.run if "runs" in vars(self) else None
+        return self.runs.run if self.has("runs") else None
 
     def use_motor(self, robot: str, motor: Motor, origin: str) -> str:
         """Give the control lab a motor that was identified on the table; returns why not, or nothing."""
@@ -144,7 +144,7 @@ class Desks:
     @property
     def planned_drawing(self) -> Sketch | None:
         """What is shown, if the robot has a way to draw it; looking makes no desk."""
-        return self.drawing.sketch if "drawing" in vars(self) and self.drawing.plan is not None else None
+        return self.drawing.sketch if self.has("drawing") and self.drawing.plan is not None else None
 
     @cached_property
     def player(self) -> DrawingPlayer:
@@ -188,7 +188,11 @@ class Desks:
     @property
     def has_hardware(self) -> bool:
         """Whether somebody has wanted the robot on the table already."""
-        return "hardware" in vars(self)
+        return self.has("hardware")
+
+    def has(self, desk: str) -> bool:
+        """Whether this desk has been made; looking makes none."""
+        return desk in vars(self)
 
     @property
     def me(self) -> Person:
@@ -197,9 +201,10 @@ class Desks:
 
     def stand_still(self) -> None:
         """What was made to be looked at moves the robot no longer."""
-        for name in ("run_playback", "motion"):
-            if name in vars(self):
-                (self.run_playback if name == "run_playback" else self.motion.playback).pause()
+        if self.has("run_playback"):
+            self.run_playback.pause()
+        if self.has("motion"):
+            self.motion.playback.pause()
 
     def close(self) -> None:
         """Stop what would go on without the browser."""

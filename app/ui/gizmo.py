@@ -10,7 +10,8 @@ import math
 
 import viser
 
-from app.ui.session import Session, Signal
+from app.signal import Signal
+from app.ui.session import Session
 from app.ui.state import Stance
 from app.ui.viser_adapter import NodeStream, silence_gizmo_echo
 

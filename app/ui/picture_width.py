@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import viser
 
-from app.ui.session import Signal
+from app.signal import Signal
 from app.ui.viser_adapter import element_id, run_javascript
 
 _WIDEST_PX = 20000

@@ -9,8 +9,9 @@ from typing import Any, Protocol, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from app.signal import Signal
 from app.simulation import Run
-from app.ui.session import Session, Signal
+from app.ui.session import Session
 
 FRAME_S = 0.05
 SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0)

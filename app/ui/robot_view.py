@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from app.robots import Robot
 from app.robots.parts import LEG, MATERIALS, Body, Machine, Part, Placement, machine_of
 from app.robots.parts.shading import Arrays
+from app.signal import Signal
 from app.ui import theme
 from app.ui.compute import Worker
 from app.ui.jobs import part_arrays
-from app.ui.session import Signal
 from app.ui.shape_cache import ShapeCache
 from app.ui.state import Stance, ViewOptions
 from app.ui.viser_adapter import NodeStream

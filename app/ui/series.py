@@ -6,8 +6,8 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from app.signal import Signal
 from app.ui.compute import Worker
-from app.ui.session import Signal
 
 Job = tuple[Callable[..., Any], tuple[Any, ...]]
 """A plain function, and what it is called with."""

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from app.robots import ROBOTS, Reach, Robot, build_robot
-from app.signal import Signal as Signal  # others know it from here
+from app.signal import Signal
 from app.ui.state import Joints, Memory, Pose, Stance, ViewOptions
 
 FARTHEST_WISH_M = 2.0

@@ -7,7 +7,7 @@ from collections.abc import Awaitable, Callable
 
 import viser
 
-from app.ui.session import Signal
+from app.signal import Signal
 from app.ui.tab_bell import on_tab_opened
 from app.ui.viser_adapter import run_javascript
 

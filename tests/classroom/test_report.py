@@ -19,8 +19,8 @@ from app.classroom.lessons.lesson import Act, Check, Choice, Lesson, NumberAnswe
 from app.classroom.report import deeds_of, report_from, report_html, report_markdown
 from app.classroom.report.chart import chart_svg
 from app.classroom.report.data import Answer, CheckMark, Report
-from app.classroom.report.ticks import tick_words, ticks, widened
 from app.classroom.report.words import duration
+from app.classroom.ticks import tick_words, ticks, widened
 from tests.support.classroom import LESSON, a_class, joined
 
 SVG = "{http://www.w3.org/2000/svg}"

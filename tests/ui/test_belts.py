@@ -15,9 +15,9 @@ from app.robots.fivebar import FiveBar
 from app.robots.parts import conveyors, machine_of, tools
 from app.robots.parts.fivebar import GRIPPER
 from app.robots.parts.part import Part
+from app.signal import Signal
 from app.ui.motion.belts_layout import MARKS, Layout, item_places, layout_for, mark_places
 from app.ui.motion.belts_view import BeltsView
-from app.ui.session import Signal
 
 BELTS = "/robot/belts"
 

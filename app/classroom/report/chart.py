@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any, NamedTuple
 
-from app.classroom.report.ticks import Range, tick_words, ticks, widened
+from app.classroom.ticks import Range, tick_words, ticks, widened
 
 WIDTH, HEIGHT = 640.0, 380.0
 LEFT, RIGHT, BOTTOM = 66.0, 16.0, 52.0

@@ -6,9 +6,9 @@ import asyncio
 from collections.abc import Callable
 
 from app.classroom.pace import Overlay, OverlayKind
+from app.signal import Signal
 from app.ui.classroom.crowd_picture import crowd_picture
 from app.ui.classroom.lines import Line
-from app.ui.session import Signal
 
 PERIOD_S = 3.0
 

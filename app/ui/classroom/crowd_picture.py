@@ -5,13 +5,14 @@ Not a uPlot: a path comes back to where it was, and its two axes need one scale.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.classroom.pace import OverlayKind
+from app.classroom.ticks import Range, tick_words, ticks, widened
 from app.ui import theme
 from app.ui.classroom.lines import Line
 
@@ -66,19 +67,16 @@ def crowd_picture(kind: OverlayKind, lines: Sequence[Line]) -> str:
 
 
 def _scales(what: Kind, lines: Sequence[Line]) -> tuple[Scale, Scale]:
-    x = Scale(*_range([line.x for line in lines]), LEFT, WIDTH - RIGHT)
-    y = Scale(*_range([line.y for line in lines]), HEIGHT - BOTTOM, TOP)
+    x = Scale(*_range(line.x for line in lines), LEFT, WIDTH - RIGHT)
+    y = Scale(*_range(line.y for line in lines), HEIGHT - BOTTOM, TOP)
     if what.equal:
         px_per_unit = min(x.px_per_unit, y.px_per_unit)
         x, y = _widened(x, px_per_unit), _widened(y, px_per_unit)
     return x, y
 
 
-def _range(values: Sequence[np.ndarray]) -> tuple[float, float]:
-    together = np.concatenate(values)
-    low, high = float(together.min()), float(together.max())
-    room = 0.04 * (high - low) or 1.0
-    return low - room, high + room
+def _range(values: Iterable[NDArray[np.float64]]) -> Range:
+    return widened([value for line in values for value in line.tolist()])
 
 
 def _widened(scale: Scale, px_per_unit: float) -> Scale:
@@ -88,24 +86,21 @@ def _widened(scale: Scale, px_per_unit: float) -> Scale:
 
 def _axes(what: Kind, x: Scale, y: Scale) -> str:
     grid = "".join(
-        _rule(x.at(v), TOP, x.at(v), HEIGHT - BOTTOM) + _text(x.at(v), HEIGHT - BOTTOM + 14, f"{v:g}")
-        for v in _ticks(x)
+        _rule(place, TOP, place, HEIGHT - BOTTOM) + _text(place, HEIGHT - BOTTOM + 14, word)
+        for place, word in _marks(x)
     )
     grid += "".join(
-        _rule(LEFT, y.at(v), WIDTH - RIGHT, y.at(v)) + _text(LEFT - 6, y.at(v) + 4, f"{v:g}", anchor="end")
-        for v in _ticks(y)
+        _rule(LEFT, place, WIDTH - RIGHT, place) + _text(LEFT - 6, place + 4, word, anchor="end")
+        for place, word in _marks(y)
     )
     across, up = 0.5 * (LEFT + WIDTH - RIGHT), 0.5 * (TOP + HEIGHT - BOTTOM)
     return grid + _text(across, HEIGHT - 8, what.x) + _text(0, 0, what.y, turn=f"translate(12,{up:g}) rotate(-90)")
 
 
-def _ticks(scale: Scale) -> list[float]:
-    """Round numbers, about `TICKS` of them."""
-    rough = (scale.high - scale.low) / TICKS
-    power = 10.0 ** math.floor(math.log10(rough))
-    step = power * next(nice for nice in (1, 2, 5, 10) if nice * power >= rough)
-    first, last = math.ceil(scale.low / step), math.floor(scale.high / step)
-    return [round(k * step, 10) for k in range(first, last + 1)]
+def _marks(scale: Scale) -> Iterable[tuple[float, str]]:
+    """Where round numbers stand, and how they are written."""
+    values = ticks(scale.low, scale.high, TICKS)
+    return zip(map(scale.at, values), tick_words(values), strict=True)
 
 
 def _path(line: Line, x: Scale, y: Scale) -> str:

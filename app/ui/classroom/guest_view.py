@@ -5,9 +5,9 @@ from __future__ import annotations
 import viser
 
 from app.robots import Robot
+from app.signal import Signal
 from app.ui.compute import Worker
 from app.ui.robot_view import RobotView
-from app.ui.session import Signal
 from app.ui.shape_cache import ShapeCache
 from app.ui.stage import Stage
 from app.ui.state import Stance, ViewOptions

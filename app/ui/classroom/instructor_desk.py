@@ -17,10 +17,10 @@ from app.classroom.errors import ClassroomRefusal
 from app.classroom.export import events_csv, progress_csv
 from app.classroom.people import Member, as_person
 from app.link.lease import Person
+from app.signal import Signal
 from app.ui.classroom.hall import Hall
 from app.ui.desks import Desks
 from app.ui.hardware.workshop import Workshop
-from app.ui.session import Signal
 
 if TYPE_CHECKING:
     from app.link.status import LinkStatus

@@ -40,7 +40,7 @@ def line_of(desks: Desks, kind: OverlayKind) -> Line | None:
 
 
 def _step_response(desks: Desks) -> Line | None:
-    answer = desks.control.answer if "control" in vars(desks) else None
+    answer = desks.control.answer if desks.has("control") else None
     if answer is None or answer.settings.setpoint == 0.0:
         return None
     board = answer.study.board

@@ -10,13 +10,14 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 from app.robots import Robot
+from app.signal import Signal
 from app.ui.compare.jobs import Result, run_law
 from app.ui.compare.score import LATER, POSITION, WHOLE, Score, ranking
 from app.ui.compare.settings import FEWEST_LAWS, MOST_LAWS, PLANNED, CompareSettings, default_compare, difference
 from app.ui.motion.desk import MotionDesk
 from app.ui.refusal import Refusal
 from app.ui.series import Series
-from app.ui.session import Session, Signal
+from app.ui.session import Session
 
 HELICES = frozenset({"T1", "T2"})
 """Their first second shows how a run begins rather than how well a law tracks."""

@@ -19,6 +19,7 @@ from app.drawing.order import Improvement
 from app.drawing.source import Source, strokes_source
 from app.drawing.toolpath import Placement, default_placement
 from app.robots import Robot
+from app.signal import Signal
 from app.ui.compute import Worker
 from app.ui.drawing import jobs
 from app.ui.drawing.jobs import Improved, Plan, Setup, Sketch, TooDense
@@ -34,7 +35,7 @@ from app.ui.drawing.settings import (
     with_preset,
 )
 from app.ui.refusal import Refusal
-from app.ui.session import Session, Signal
+from app.ui.session import Session
 from app.ui.state import DrawingMemory
 
 FIRST_SAMPLE = "cat"

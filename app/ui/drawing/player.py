@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.drawing.toolpath import Track, pause_after
+from app.signal import Signal
 from app.ui.playback import Playback, instant_at
-from app.ui.session import Session, Signal
+from app.ui.session import Session
 
 State = Literal["empty", "ready", "drawing", "pausing", "paused", "done"]
 

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from app.drawing.toolpath import Placement
 from app.robots.parts import machine_of
+from app.signal import Signal
 from app.ui import theme
 from app.ui.drawing.ink import along
-from app.ui.session import Session, Signal
+from app.ui.session import Session
 from app.ui.viser_adapter import NodeStream, silence_gizmo_echo
 
 THICKNESS_M = 0.0015

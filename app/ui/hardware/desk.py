@@ -22,10 +22,11 @@ from app.link.protocol.messages import Test
 from app.link.status import LinkStatus
 from app.link.twin.recording import Recording
 from app.robots import Robot
+from app.signal import Signal
 from app.ui.hardware.same_robot import moves_alike
 from app.ui.hardware.verbs import VERBS, holds, place_in_queue
 from app.ui.hardware.workshop import Workshop
-from app.ui.session import Session, Signal
+from app.ui.session import Session
 
 Result = TypeVar("Result")
 Notify = Callable[[str, Literal["red", "green"]], None]

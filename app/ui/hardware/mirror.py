@@ -7,12 +7,12 @@ from collections.abc import Sequence
 
 from app.link.protocol.codes import State
 from app.link.status import LinkStatus
+from app.signal import Signal
 from app.ui.gizmo import Gizmo
 from app.ui.hardware.desk import HardwareDesk
 from app.ui.hardware.follower import stand_as_commanded
 from app.ui.hardware.verbs import not_free, not_in_control
 from app.ui.pacing import Paced
-from app.ui.session import Signal
 
 INTERVAL_S = 1.0 / 30.0
 """Between two poses."""

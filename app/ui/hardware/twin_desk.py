@@ -6,11 +6,11 @@ from collections.abc import Callable
 
 from app.link.twin.compare import TwinComparison
 from app.link.twin.recording import Recording
+from app.signal import Signal
 from app.ui.compute import Worker
 from app.ui.hardware import jobs
 from app.ui.hardware.desk import HardwareDesk
 from app.ui.refusal import Refusal
-from app.ui.session import Signal
 
 
 class TwinDesk:

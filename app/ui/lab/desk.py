@@ -10,11 +10,12 @@ from typing import NamedTuple
 
 from app.control.tuning.methods import methods_for
 from app.robots import Robot
+from app.signal import Signal
 from app.simulation.step_study import Study
 from app.ui.compute import Worker
 from app.ui.lab.jobs import Answer, answer
 from app.ui.lab.settings import BY_HAND, ControlSettings, changed, default_settings
-from app.ui.session import Session, Signal
+from app.ui.session import Session
 
 GAINS = frozenset({"kp", "ki", "kd", "n"})
 

@@ -7,11 +7,12 @@ from dataclasses import dataclass, replace
 
 from app.control.drives import DRIVES
 from app.robots import Robot
+from app.signal import Signal
 from app.ui.compute import Worker
 from app.ui.lab.desk import ControlDesk
 from app.ui.lab.motor_jobs import Identified, MotorTest, move_and_identify, read_and_identify
 from app.ui.refusal import Refusal
-from app.ui.session import Session, Signal
+from app.ui.session import Session
 
 BY_YOU = "Identified by you"
 

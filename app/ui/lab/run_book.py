@@ -7,12 +7,13 @@ from collections.abc import Callable
 from weakref import WeakKeyDictionary
 
 from app.robots import Robot
+from app.signal import Signal
 from app.simulation import Run
 from app.ui.compute import Worker
 from app.ui.lab.jobs import run_robot
 from app.ui.lab.settings import ControlSettings
 from app.ui.refusal import Refusal
-from app.ui.session import Session, Signal
+from app.ui.session import Session
 
 KEPT = 8
 """Runs that are kept; the oldest is forgotten first. Each takes about 2 MB."""

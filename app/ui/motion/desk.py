@@ -10,11 +10,12 @@ from typing import Any
 
 from app.motion import CYCLES, Motion, MotionSettings, WorkCycle, default_motion
 from app.robots import Robot
+from app.signal import Signal
 from app.ui.compute import Worker
 from app.ui.motion import jobs
 from app.ui.playback import Playback
 from app.ui.refusal import Refusal
-from app.ui.session import Session, Signal
+from app.ui.session import Session
 from app.ui.state import MotionMemory
 
 WITH_CYCLE = "fivebar"

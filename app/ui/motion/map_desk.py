@@ -9,10 +9,11 @@ import numpy as np
 
 from app.robots import Robot
 from app.robots.maps import MapSettings
+from app.signal import Signal
 from app.ui.compute import Worker
 from app.ui.motion.map_picture import MapPicture, map_picture
 from app.ui.refusal import Refusal
-from app.ui.session import Session, Signal
+from app.ui.session import Session
 
 PAPER_ACCELERATION, PAPER_SPEED = 11.3, 1.16
 """Largest of the five-bar's work cycle, m/s^2 and m/s: its maps begin with them."""
